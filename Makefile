@@ -29,8 +29,9 @@ help:
 # What the report is made from; with nothing changed, make ends without starting Python.
 SOURCES := $(shell find atlas figures templates reports -type f -not -path '*/__pycache__/*' -not -name '.*' 2>/dev/null)
 MADE    := build/report/.made
+BODY    := build/report/.toutatis
 
-report: $(MADE)
+report: $(MADE) $(BODY)
 	@echo build/report/atlas/index.html
 	@echo build/report/atlas.pdf
 	@echo build/report/trial.pdf
@@ -42,10 +43,16 @@ GL      := $(wildcard /etc/ld.so.cache /usr/lib/*/dri /usr/share/glvnd/egl_vendo
 THERE   := $(wildcard build/report/atlas.pdf)$(wildcard build/report/trial.pdf)$(wildcard build/report/atlas/index.html)
 STAMP   := build/report/atlas.pdfbuild/report/trial.pdfbuild/report/atlas/index.html gl=$(ATLAS_GL)
 
-$(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
+ANEW    := $(if $(filter-out $(THERE) $(shell cat $(MADE) 2>/dev/null),$(STAMP)),FORCE)
+
+$(MADE): $(VENV)/.ready $(SOURCES) $(GL) $(ANEW)
 	@$(ATLAS) report atlas trial guide summary >/dev/null
-	@$(ATLAS) report your_body --from toutatis >/dev/null
 	@echo 'gl=$(ATLAS_GL)' >$@
+
+# The report of a body, which the texts of the others do not change.
+$(BODY): $(VENV)/.ready $(filter-out reports/%.md,$(SOURCES)) $(GL) $(ANEW)
+	@$(ATLAS) report your_body --from toutatis >/dev/null
+	@touch $@
 
 figures: setup
 	@$(ATLAS) figure --all

@@ -1,7 +1,6 @@
 """From a report file to the input of templates: blocks numbered, tables computed, texts and citations collected."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from itertools import count, product
 from string import ascii_uppercase
 from typing import Any
@@ -11,6 +10,7 @@ from atlas.book import (
     keys,  # noqa: F401  adds its tables
 )
 from atlas.book.appendices import Appendices
+from atlas.book.beside import Beside
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks import KINDS, kind_of
 from atlas.book.blocks.composer import Composer
@@ -29,7 +29,7 @@ def compose(
     pictures: Mapping[str, Picture],
     recorded: Appendices | None = None,
     bibliography: Bibliography | None = None,
-    related: Mapping[str, Document] | None = None,
+    beside: Beside | None = None,
     *,
     outline: bool = False,
 ) -> Document:
@@ -37,7 +37,7 @@ def compose(
 
     `pictures` are those of `atlas.book.pictures.pictures`, `recorded` holds the recorded results that its blocks
     show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
-    that, else to the first display of the equation, else to one of the reports `related` to this one. An `outline` has
+    that, else to the first display of the equation, else to one of the reports `beside` this one. An `outline` has
     numbers and anchors of everything, and computes no table. A picture that failed keeps its place with the reason;
     any other mistake raises AtlasError.
     """
@@ -47,11 +47,8 @@ def compose(
         ledger=_pages_of(report),
         equations=dict(THEOREMS),
         bibliography=bibliography or Bibliography(),
-        related=related or {},
+        beside=beside or Beside(),
     )
-    for name, outline_document in document.related.items():
-        for used, uses in outline_document.uses.items():
-            document.uses[used] += [replace(use, file=f"../{name}/{use.file}") for use in uses]
     document.title = document.texts.add(title(report.title), "the title", inline=True)
     document.subtitle = document.texts.add(title(report.subtitle), "the subtitle", inline=True)
     document.abstract = document.texts.add(report.abstract, "the abstract")

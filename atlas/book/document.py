@@ -1,12 +1,12 @@
 """A report ready to be set: its pages, pictures and texts, and where each citation leads."""
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from atlas.arithmetic.lazy import cached_property
+from atlas.book.beside import Beside, Outline
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks.composer import Use
 from atlas.book.blocks.figure import Figure, Picture
@@ -14,7 +14,7 @@ from atlas.book.blocks.ledger import Errata, Ledger
 from atlas.book.definition import Report
 from atlas.book.pandoc import Target
 from atlas.book.pictures import keys
-from atlas.book.texts import Link, Texts, citations
+from atlas.book.texts import Cite, Link, Texts, citations
 from atlas.errors import AtlasError, unknown
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.ledger.equation import slug
@@ -87,7 +87,7 @@ class Document:
     report; `ledger` the slug of the page of each entry of the ledger; `errata` that of the page of the errata.
     `title`, `subtitle`, `abstract`, `given`, `symbols` (with their anchors) and `formulas` (cited equations that no
     page of this report displays, by name) are indices of texts. `written` holds the typeset texts by target, `uses`
-    the places that cite each equation. `gallery` is the page of pictures, in the HTML alone. `related` holds the
+    the places that cite each equation. `gallery` is the page of pictures, in the HTML alone. `beside` holds the
     related reports in outline; a citation of a name that is missing here leads there. `bibliography` holds the
     works that can be cited, `listed_on` is the page of their list.
     """
@@ -108,7 +108,7 @@ class Document:
     bibliography: Bibliography = field(default_factory=Bibliography)
     listed_on: str = ""
     written: dict[Target, list[str]] = field(default_factory=dict)
-    related: "Mapping[str, Document]" = field(default_factory=dict)
+    beside: Beside = field(default_factory=Beside)
     uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
     formulas: dict[str, int] = field(default_factory=dict)
     gallery: PageView | None = None
@@ -118,12 +118,9 @@ class Document:
 
         Raises AtlasError for a formula that can't be read, a link that is not allowed, and an unknown citation.
         """
-        self.texts.read()
-        with ThreadPoolExecutor(len(targets)) as threads:
-            texts = threads.map(lambda target: self.texts.set(target, self.cite(target)), targets)
-            self.written = dict(zip(targets, texts, strict=True))
+        self.written = self.texts.set({target: self.cite(target) for target in targets})
 
-    def cite(self, target: Target) -> Callable[[str, str], Link]:
+    def cite(self, target: Target) -> Cite:
         """Return the function (name, place) -> `Link` that resolves citations for a target, "html", "typst" or "latex".
 
         Names are looked up in this report, in the related ones, in the ledger and in the bibliography. The function
@@ -135,8 +132,8 @@ class Document:
             if here := self.place(name, printed=target == "typst"):
                 file, anchor, words = here
                 return Link(words, file if target == "html" else "", anchor, says)
-            link_beside = next(filter(None, (related.from_beside(name) for related in self.related.values())), None)
-            if link_beside:
+            if links := self.beside.ask("link", name):
+                link_beside = Link(*links[0])
                 return link_beside._replace(says=says) if target == "html" else Link(link_beside.words)
             if name in EQUATIONS:
                 return Link(self.number(name))
@@ -167,6 +164,27 @@ class Document:
         return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
 
     @property
+    def outline(self) -> Outline:
+        """The report as those beside it see it, by name: links, pages of entries of the ledger, uses of equations."""
+        folder = f"../{self.report.name}"
+        names = (f"report:{self.report.name}", "page:gallery", *self.targets, *self.ledger)
+        return {
+            "link": {name: link for name in names if (link := self.from_beside(name))},
+            "entry": {name: f"{folder}/{page}" for name, page in self.ledger.items()},
+            "uses": {
+                name: [use._replace(file=f"{folder}/{use.file}") for use in uses]
+                for name, uses in self.uses.items()
+                if uses
+            },
+        }
+
+    @property
+    def door(self) -> str:
+        """Address of the gallery, of this or of a related report; "" without one."""
+        links = self.beside.ask("link", "page:gallery")
+        return "gallery.html" if self.gallery else links[0][1] if links else ""
+
+    @property
     def printed(self) -> list[PageView]:
         """The pages of the PDF: those with ``printed = false`` or a ledger are in the HTML alone."""
         return [page for page in self.pages if page.printed]
@@ -189,9 +207,7 @@ class Document:
 
         Else "".
         """
-        ledgers = ((folder, related.ledger) for folder, related in self.related.items())
-        page = next((f"../{folder}/{ledger[name]}" for folder, ledger in ledgers if name in ledger), "")
-        return self.ledger.get(name, page)
+        return self.ledger.get(name) or next(iter(self.beside.ask("entry", name)), "")
 
     def number(self, name: str) -> str:
         """Return an equation's citation: its number in the paper, "(72)", the report's own number, or "(name)"."""

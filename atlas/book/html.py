@@ -4,7 +4,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from functools import lru_cache, partial
 from html import escape as escaped
 from html import unescape
 from io import BytesIO
@@ -237,6 +237,7 @@ def _words(html: str) -> str:
     return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))
 
 
+@lru_cache(maxsize=4096)
 def linear(mathml: str) -> str:
     """Return a formula in MathML as a line of plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
     return _joined("".join(_line(ET.fromstring(mathml)).split()))  # noqa: S314  what pandoc has written

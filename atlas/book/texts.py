@@ -8,8 +8,9 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from atlas.book import pandoc
 from atlas.book.pandoc import FormulaError, Target, Tree, mend_all, with_leading
@@ -54,6 +55,10 @@ class Link(NamedTuple):
     bracketed: str = ""
 
 
+Cite: TypeAlias = Callable[[str, str], Link]
+"""A function (name, place) that returns the link of a citation, or raises AtlasError, which begins with the place."""
+
+
 @dataclass(frozen=True)
 class Text:
     """A piece of Markdown, its place in the report for messages (`where`), and whether it is no whole paragraph.
@@ -71,14 +76,13 @@ class Text:
 class Texts:
     """The texts of one report, typeset together; `texts` are those added so far.
 
-    `memory` holds results of earlier builds, JSON or typeset text by a key made from their source; `used` those of them
-    that this build asked for.
+    `memory` holds results of earlier builds by text and target: the links of the text's citations by name, and the text
+    typeset. `used` holds those that this build took or made.
     """
 
     texts: list[Text] = field(default_factory=list)
-    memory: dict[str, str] = field(default_factory=dict)
-    used: dict[str, str] = field(default_factory=dict)
-    _trees: list[Tree] = field(default_factory=list)
+    memory: dict[str, Any] = field(default_factory=dict)
+    used: dict[str, Any] = field(default_factory=dict)
 
     def add(self, markdown: str, place: str, *, inline: bool = False, anchors: Mapping[str, str] | None = None) -> int:
         """Add a Markdown text and return its index among the texts.
@@ -93,54 +97,72 @@ class Texts:
         """Return the `Text` at this index."""
         return self.texts[number]
 
-    def read(self) -> None:
-        """Parse the added texts into trees of pandoc. Raises AtlasError for a text nested more than `MAX_DEPTH` deep.
+    def set(self, cites: Mapping[Target, Cite]) -> dict[Target, list[str]]:
+        """Return all texts typeset for each target, in order.
 
-        The time that pandoc takes for such a text doubles with each level.
+        `cites` has for each target the function (name, place) that returns the link of a citation. A text whose links
+        are as in `memory` is taken from there. Raises AtlasError, with the place, for an unreadable formula, a link
+        that is not allowed, a picture, and a text nested too deeply.
         """
-        for text in self.texts:
-            if deepest(text.markdown) > MAX_DEPTH:
-                raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {MAX_DEPTH} deep.")
-        keys = [json.dumps([pandoc.release(), text.markdown, text.inline]) for text in self.texts]
-        new = {key: text for key, text in zip(keys, self.texts, strict=True) if key not in self.memory}
-        if new:
-            trees = pandoc.read([(_braced(text.markdown), text.inline) for text in new.values()])
-            for key, tree in zip(new, trees, strict=True):
-                self.memory[key] = json.dumps(tree)
-        self._trees = [json.loads(tree) for tree in self._recalled(keys)]
+        keys = {
+            target: [
+                json.dumps([pandoc.release(), target, text.markdown, text.inline, text.anchors]) for text in self.texts
+            ]
+            for target in cites
+        }
+        for target, cite in cites.items():
+            for key, text in zip(keys[target], self.texts, strict=True):
+                links, _ = self.memory.get(key, (None, ""))
+                if links is not None and all([*cite(name, text.where)] == [*link] for name, link in links.items()):
+                    self.used[key] = self.memory[key]
+        new: dict[Target, dict[str, Text]] = {target: {} for target in cites}
+        for target in cites:
+            for key, text in zip(keys[target], self.texts, strict=True):
+                if key not in self.used:
+                    new[target].setdefault(key, text)
+        trees = _read([text for texts in new.values() for text in texts.values()])
+        with ThreadPoolExecutor(len(cites)) as threads:
+            for written in threads.map(lambda target: _written(new[target], target, cites[target], trees), cites):
+                self.used |= written
+        return {target: [self.used[key][1] for key in keys[target]] for target in cites}
 
-    def set(self, target: Target, cite: Callable[[str, str], Link]) -> list[str]:
-        """Return all texts typeset for a target ("html", "typst", "latex"), a list in order.
 
-        `cite` (name, place) returns the link of a citation. Raises AtlasError, with the place, for an unreadable
-        formula, a link that is not allowed, and a picture.
-        """
-        if len(self._trees) < len(self.texts):
-            self.read()
-        trees = [_Checked(text, target, cite).tree(tree) for text, tree in zip(self.texts, self._trees, strict=True)]
-        if target == "typst":
-            trees = [tree if text.inline else with_leading(tree) for text, tree in zip(self.texts, trees, strict=True)]
-        keys = [
-            json.dumps([pandoc.release(), target, text.inline, tree])
-            for text, tree in zip(self.texts, trees, strict=True)
-        ]
-        new = list({key: number for number, key in enumerate(keys) if key not in self.memory}.values())
-        try:
-            pieces = pandoc.write([(trees[number], self.texts[number].inline) for number in new], target) if new else []
-        except FormulaError as error:
-            number = next(number for number in new if json.dumps(error.tex) in json.dumps(trees[number]))
-            raise AtlasError(f"{self.texts[number].where}: {error}") from error
-        for number, piece in zip(new, pieces, strict=True):
-            self.memory[keys[number]] = _finished(piece, target, self.texts[number])
-        return self._recalled(keys)
+def _read(texts: Sequence[Text]) -> dict[tuple[str, bool], Tree]:
+    """Return pandoc's trees of texts by (Markdown, inline). Raises AtlasError for a text nested too deeply.
 
-    def _recalled(self, keys: Sequence[str]) -> list[str]:
-        """Return the outputs in `memory` for the keys, in order, and mark them as used.
+    The time that pandoc takes for such a text doubles with each level.
+    """
+    for text in texts:
+        if deepest(text.markdown) > MAX_DEPTH:
+            raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {MAX_DEPTH} deep.")
+    sources = dict.fromkeys((text.markdown, text.inline) for text in texts)
+    trees = pandoc.read([(_braced(markdown), inline) for markdown, inline in sources]) if sources else []
+    return dict(zip(sources, trees, strict=True))
 
-        Raises KeyError for one not there.
-        """
-        self.used |= {key: self.memory[key] for key in keys}
-        return [self.used[key] for key in keys]
+
+def _written(
+    texts: Mapping[str, Text], target: Target, cite: Cite, trees: Mapping[tuple[str, bool], Tree]
+) -> dict[str, Any]:
+    """Return for each key the links of a text's citations, by name, and the text typeset from its tree."""
+    links: dict[str, dict[str, Link]] = {key: {} for key in texts}
+
+    def checked(key: str, text: Text) -> Tree:
+        def noted(name: str, place: str) -> Link:
+            return links[key].setdefault(name, cite(name, place))
+
+        tree = _Checked(text, target, noted).tree(trees[text.markdown, text.inline])
+        return with_leading(tree) if target == "typst" and not text.inline else tree
+
+    nodes = {key: checked(key, text) for key, text in texts.items()}
+    try:
+        pieces = pandoc.write([(nodes[key], text.inline) for key, text in texts.items()], target) if texts else []
+    except FormulaError as error:
+        key = next(key for key in texts if json.dumps(error.tex) in json.dumps(nodes[key]))
+        raise AtlasError(f"{texts[key].where}: {error}") from error
+    return {
+        key: [links[key], _finished(piece, target, text)]
+        for (key, text), piece in zip(texts.items(), pieces, strict=True)
+    }
 
 
 def deepest(markdown: str) -> int:
@@ -191,7 +213,7 @@ def _braced(markdown: str) -> str:
 class _Checked:
     """Checker of a text's tree for a target: only text and formulas reach a page; citations are resolved by `cite`."""
 
-    def __init__(self, text: Text, target: Target, cite: Callable[[str, str], Link]) -> None:
+    def __init__(self, text: Text, target: Target, cite: Cite) -> None:
         self.text, self.target, self.cite = text, target, cite
         self.anchors = dict(text.anchors)
 

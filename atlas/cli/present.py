@@ -279,6 +279,8 @@ Progress = Callable[[int, int, str], None]
 def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
     """Yield a progress function of (parts done, number of parts, name of the next part).
 
+    On a terminal a sentence in the place of the name stays as a line of its own.
+
     The bar appears at the first call; until then no thread is started, so that a build can still fork. Without a
     terminal nothing is shown, or one line every `every` seconds, for the log of a batch job. `title` stands before
     the bar.
@@ -303,6 +305,8 @@ def bar(title: str, *, every: float = 0.0) -> Iterator[Progress]:
         if not display.tasks:
             display.start()
             display.add_task(title, total=None, part="")
+        if name.endswith("."):
+            display.console.print(name, markup=False, highlight=False)
         display.update(display.task_ids[0], completed=done, total=total, part=name)
 
     try:

@@ -13,6 +13,7 @@ from fontTools.ttLib import TTFont
 from lxml import html as reader
 from pypdf import PdfReader
 
+from atlas.book import files
 from atlas.book.building.report import Built, build_report
 from atlas.errors import AtlasError
 
@@ -261,3 +262,26 @@ def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:
     assert "A New Title" in PdfReader(report.pdf).pages[0].extract_text()
     assert {path: path.stat().st_mtime_ns for path in report.index.parent.rglob("*") if path.is_file()} == pages
     assert build_report(file, out).reasons[0][2].startswith("taken")
+
+
+@pytest.mark.slow
+def test_a_report_is_built_again_where_one_beside_it_says_something_new(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What it does not ask may change; of what it asks, a change gives the pages and the PDF of a first build."""
+    (tmp_path / "reports").mkdir()
+    monkeypatch.setattr(files, "folder", lambda _: tmp_path / "reports")
+    page = '+++\nname = "{}"\ntitle = "{}"\n{}+++\n\n# One\n\n{}\n'
+    other, own = (tmp_path / "reports" / f"{name}.md" for name in ("other", "own"))
+    own.write_text(page.format("own", "Own", '[related]\nother = "Other"\n', "See @(72) and @report:other."))
+
+    def built_beside(title: str, text: str, out: Path) -> Built:
+        other.write_text(page.format("other", title, "", text))
+        return build_report(own, out)
+
+    built_beside("Other", "Words.", tmp_path / "out")
+    assert built_beside("Other", "Other words.", tmp_path / "out").reasons[0][2].startswith("taken")
+    after, first = (built_beside("New", "Other words.", tmp_path / out) for out in ("out", "first"))
+    assert "New" in after.index.read_text("utf-8")
+    for one, two in ((after.index, first.index), (after.pdf, first.pdf)):
+        assert one.read_bytes() == two.read_bytes()

@@ -126,7 +126,7 @@ def test_examples_in_the_kernels_print_their_output() -> None:
 def test_a_docstring_is_shown_as_it_is_written() -> None:
     """Signs of Markdown are letters, backticks and indented lines are code, dashes are lists."""
     text = "A `x` of omega'_1^2 * 2 < [y].\n\n    E = m_0 c^2\n\n- one ``a`b``\n- two"
-    (piece,) = Texts([Text(markdown(text), "here", False, {})]).set("html", lambda name, _: Link(name))
+    (piece,) = Texts([Text(markdown(text), "here", False, {})]).set({"html": lambda name, _: Link(name)})["html"]
     assert "<code>x</code> of omega" in piece
     assert "_1^2 * 2 &lt; [y]." in piece
     assert "<pre><code>E = m_0 c^2</code></pre>" in piece
@@ -140,7 +140,9 @@ def test_sections_of_a_docstring_become_tables() -> None:
         "t, s : array_like\n    Times.\n\nRaises\n------\nDomainError\n    At the pole.\n\n"
         "Notes\n-----\nAs in (71).\n\nExamples\n--------\n>>> 1 + 1\n2"
     )
-    (piece,) = Texts([Text(markdown_of_sections(text), "here", False, {})]).set("html", lambda name, _: Link(name))
+    (piece,) = Texts([Text(markdown_of_sections(text), "here", False, {})]).set({"html": lambda name, _: Link(name)})[
+        "html"
+    ]
     rows = [re.sub(r"<[^>]+>|\s+", " ", row).split() for row in re.findall(r"<tr.*?</tr>", piece, re.DOTALL)]
     assert [" ".join(row) for row in rows] == [
         "Parameters Meaning",

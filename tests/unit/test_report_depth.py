@@ -23,7 +23,7 @@ def set_in_typst(*texts: str) -> list[str]:
     made = Texts()
     for text in texts:
         made.add(text, "here")
-    return made.set("typst", lambda name, _: Link(name))
+    return made.set({"typst": lambda name, _: Link(name)})["typst"]
 
 
 def test_a_text_may_be_nested_ten_deep() -> None:

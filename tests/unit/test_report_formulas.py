@@ -19,7 +19,7 @@ def formula_in(tex: str, target: Target = "html") -> str:
     """Set one text."""
     texts = Texts()
     texts.add(tex, "here", inline=True)
-    return texts.set(target, lambda name, _place: Link(name, "", name))[0]
+    return texts.set({target: lambda name, _place: Link(name, "", name)})[target][0]
 
 
 def test_every_equation_of_the_ledger_is_set_in_both_targets() -> None:
@@ -27,8 +27,7 @@ def test_every_equation_of_the_ledger_is_set_in_both_targets() -> None:
     texts = Texts()
     for name, entry in EQUATIONS.items():
         texts.add(f"$${entry.tex}$$", name)
-    pages = texts.set("html", lambda name, _place: Link(name))
-    print_ = texts.set("typst", lambda name, _place: Link(name))
+    pages, print_ = texts.set(dict.fromkeys(("html", "typst"), lambda name, _place: Link(name))).values()
     assert len(pages) == len(print_) == len(EQUATIONS)
     for name, page, typst in zip(EQUATIONS, pages, print_, strict=True):
         assert page.count("<math") == 1, name
@@ -221,8 +220,7 @@ def test_a_paragraph_that_ends_with_a_colon_is_kept_with_the_next(markdown: str,
     """Indented where a paragraph stands before it, in a PDF only; its words are the same."""
     texts = Texts()
     texts.add(markdown, "here")
-    typst, html = (
-        texts.set(target, lambda _name, _place: pytest.fail("nothing is cited"))[0] for target in ("typst", "html")
-    )
+    cites = dict.fromkeys(("typst", "html"), lambda _name, _place: pytest.fail("nothing is cited"))
+    (typst,), (html,) = texts.set(cites).values()
     assert [begin for begin in (INDENTED, FLUSH) if begin in typst] == [begins] * bool(begins)
     assert "leading" not in html

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from atlas.book import bibliography
+from atlas.book.building.cache import Cache
 from atlas.book.building.records import gather
 from atlas.book.building.report import outlines
 from atlas.book.compose import compose
@@ -15,6 +16,7 @@ from atlas.book.pictures import pictures
 from atlas.errors import AtlasError
 from atlas.pictures import recipes
 from atlas.places import folder
+from atlas.sources import Sources
 
 HEAD = 'name = "a"\ntitle = "A"\n'
 PAGE = '[[pages]]\nslug = "index"\ntitle = "T"\n'
@@ -144,14 +146,14 @@ def test_a_file_of_another_kind_is_no_report(tmp_path: Path) -> None:
     "name",
     [pytest.param(name, marks=[pytest.mark.slow] * (name in {"atlas", "trial", "three_moments"})) for name in names()],
 )
-def test_every_report_of_the_folder_is_sound(name: str) -> None:
+def test_every_report_of_the_folder_is_sound(name: str, tmp_path: Path) -> None:
     """Each is named like its file, all its tables and scenes can be made, and every citation leads somewhere."""
     report = load(find(name))
     figures = pictures(report)
     works = bibliography.read(folder("reports") / report.bibliography) if report.bibliography else None
-    document = compose(report, figures, gather(report), works, outlines(report))
+    document = compose(report, figures, gather(report), works, outlines(find(name), Cache(tmp_path), Sources()))
     assert report.name == name
     for picture in figures.values():
         assert not picture.failure
         assert recipes.load(picture.recipe).scene(**picture.parameters).alt
-    assert len(document.texts.set("html", document.cite("html"))) == len(document.texts.texts)
+    assert len(document.texts.set({"html": document.cite("html")})["html"]) == len(document.texts.texts)

@@ -157,10 +157,10 @@ def test_random_signs_never_break_the_pdf_or_leave_a_tag(tmp_path: Path) -> None
     random, texts = Random(13), Texts()  # noqa: S311  no secret
     for number in range(200):
         texts.add("".join(random.choices(TOKENS, k=random.randint(1, 12))), "here", inline=number % 2 == 0)
-    pieces = texts.set("html", lambda name, _: Link(name))
+    pieces, printed = texts.set(dict.fromkeys(("html", "typst"), lambda name, _: Link(name))).values()
     assert inert(reader.fromstring("<div>" + "".join(pieces) + "</div>"))
     rule = "#let horizontalrule = line(length: 40%)\n#let leading(indented, body) = body\n"
-    blocks = "".join(f"#block([{block}])\n\n" for block in texts.set("typst", lambda name, _: Link(name)))
+    blocks = "".join(f"#block([{block}])\n\n" for block in printed)
     typesetting.compiled(rule + blocks, tmp_path, FONTS)
 
 
@@ -175,7 +175,7 @@ def test_a_doi_becomes_an_address() -> None:
     """``doi:`` leads to doi.org."""
     texts = Texts()
     texts.add("[paper](doi:10.3390/universe10060250)", "here", inline=True)
-    (text,) = texts.set("html", lambda name, _: Link(name))
+    (text,) = texts.set({"html": lambda name, _: Link(name)})["html"]
     assert 'href="https://doi.org/10.3390/universe10060250"' in text
 
 
@@ -379,7 +379,7 @@ def test_citations_are_found_as_pandoc_finds_them() -> None:
     text = "See @(50), (@theorem-points); `@(89)`, $x@y$ and a@b.c, @fig:curve and [@tab:points; see @(90), p. 3]."
     texts, citations_found = Texts(), []
     texts.add(text, "here", inline=True)
-    texts.set("html", lambda name, _: citations_found.append(name) or Link(name))
+    texts.set({"html": lambda name, _: citations_found.append(name) or Link(name)})
     assert citations_found == citations(text) == ["(50)", "theorem-points", "fig:curve", "tab:points", "(90)"]
 
 

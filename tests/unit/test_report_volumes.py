@@ -9,6 +9,7 @@ from lxml import html
 from pypdf import PdfReader
 
 from atlas.book import bibliography
+from atlas.book.beside import Beside
 from atlas.book.blocks.explorer import Explorer
 from atlas.book.building.report import build_report
 from atlas.book.compose import compose
@@ -25,10 +26,10 @@ from atlas.trial.ledger.equation import slug
 VOLUMES = ("atlas", "trial", "guide")
 
 
-def outline(name: str, **related: Document) -> Document:
+def outline(name: str, *related: Document) -> Document:
     """Return a report in outline."""
     report = load(find(name))
-    return compose(report, pictures(report), related=related, outline=True)
+    return compose(report, pictures(report), beside=Beside(document.outline for document in related), outline=True)
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +37,7 @@ def volumes() -> dict[str, Document]:
     """Return the volumes, each with the others beside it."""
     outlines_alone = {name: outline(name) for name in VOLUMES}
     return {
-        name: outline(
-            name, **{name_linked: outlines_alone[name_linked] for name_linked in VOLUMES if name_linked != name}
-        )
+        name: outline(name, *(outlines_alone[name_linked] for name_linked in VOLUMES if name_linked != name))
         for name in VOLUMES
     }
 

@@ -1,8 +1,7 @@
 """State shared by the blocks of a report while they are composed in order: counts, texts, names, uses."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from atlas.book.appendices import Appendices
 from atlas.book.texts import citations
@@ -10,8 +9,7 @@ from atlas.trial.ledger import EQUATIONS
 from atlas.trial.ledger.equation import slug
 
 
-@dataclass(frozen=True)
-class Use:
+class Use(NamedTuple):
     """A place that cites an entry of the ledger: title of its page, HTML file, anchor, and words such as "Figure 3"."""
 
     page: str
@@ -101,6 +99,13 @@ class Composer:
         place = Use(self.title, f"{self.slug}.html", anchor, words)
         if place not in self.uses[name]:
             self.uses[name].append(place)
+
+    def uses_of(self, name: str) -> list[Use]:
+        """Return the uses of an equation, those in reports beside this one first; the list grows with this report."""
+        uses: list[Use] = self.uses[name]
+        answers = self.document.beside.ask("uses", name)
+        uses[:0] = [use for answer in answers for use in (Use(*words) for words in answer) if use not in uses]
+        return uses
 
     def target(self, name: str, anchor: str, words: str) -> bool:
         """Make an anchor of this page, in `words` such as "Figure 3", the target of citations of a name; return True.

@@ -78,7 +78,7 @@ def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
     return EntryView(
         entry,
         finding,
-        composer.uses[entry.name],
+        composer.uses_of(entry.name),
         says=composer.text(entry.says, inline=True),
         formula=composer.text(_display(entry.tex)),
         assumptions=words("; ".join(entry.assumptions)),

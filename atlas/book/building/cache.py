@@ -64,8 +64,9 @@ class Cache:
 
     def save(self, name: str, value: Any) -> None:
         """Store a JSON value under a name, which need be no digest; the previous value is replaced."""
-        if self.load(name) != value:
-            self.put(digest("name", name), json.dumps(value).encode())
+        content = json.dumps(value).encode()
+        if self.get(digest("name", name)) != content:
+            self.put(digest("name", name), content)
 
     @contextmanager
     def temporary(self) -> Iterator[Path]:

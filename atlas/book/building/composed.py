@@ -57,12 +57,12 @@ def composed(
         for drawing in pictures_by_key.values()
         if not drawing.failure
     }
-    figures.find(list(builds), cache, Sources(cache), gl.library())
+    figures.find(list(builds), cache, sources := Sources(cache), gl.library())
     figures.draw(list(builds), cache, jobs or figures.cores(), progress)
     for build in builds:
         if build.failure:
             raise AtlasError(f"the figure {build.name} failed: {build.failure}")
-    document = document_of(report, file, pictures_by_key, builds)
+    document = document_of(report, file, pictures_by_key, builds, cache, sources)
     return document, {picture.stem: build for build, picture in builds.items()}, out / name_of(file, values)
 
 

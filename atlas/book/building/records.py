@@ -9,7 +9,7 @@ import json
 import math
 import re
 from collections import Counter, defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from itertools import groupby
 from typing import Any
 
@@ -36,8 +36,11 @@ _NAMED = {"k_hat": r"\hat{\mathbf{k}}", "Omega": r"\boldsymbol{\Omega}"} | {x: r
 _SECTIONS = {"VII": "Appendix", "Atlas": "Atlas"}
 
 
-def gather(report: Report) -> Appendices:
-    """Return the `Appendices` with those records that the blocks of a report show, and nothing else."""
+def gather(report: Report, reference: "Callable[[], Mapping[str, Described]] | None" = None) -> Appendices:
+    """Return the `Appendices` with those records that the blocks of a report show, and nothing else.
+
+    `reference` returns the public names, by default `described`.
+    """
     blocks = [block for page in report.pages for block in page.blocks]
     trial = any(isinstance(block, Ledger | Errata) for block in blocks)
     requests = {block.source for block in blocks if isinstance(block, Recorded)}
@@ -45,7 +48,7 @@ def gather(report: Report) -> Appendices:
     for source, read in {"trial": _trial, "bench": _bench, "stress": _stress, "machines": _machines}.items():
         if source in requests:
             tables |= {f"{source}: {name}": data for name, data in read().items()}
-    names = described() if any(isinstance(block, Reference) for block in blocks) else {}
+    names = (reference or described)() if any(isinstance(block, Reference) for block in blocks) else {}
     return Appendices(_findings() if trial else {}, tables, names)
 
 

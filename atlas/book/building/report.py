@@ -11,12 +11,14 @@ import time
 from collections.abc import Callable, Container, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from atlas.book.beside import Beside, Outline
 from atlas.book.building.cache import Cache
 from atlas.book.building.formats import LANGUAGES, files_of, set_texts
 from atlas.book.building.publish import publish
@@ -29,6 +31,7 @@ from atlas.places import cache_folder, folder
 from atlas.sources import DISTURBED, PACKAGE, Sources, digest
 
 if TYPE_CHECKING:
+    from atlas.book.appendices import Described
     from atlas.book.blocks.figure import Picture
     from atlas.book.building.figures import FigureBuild
     from atlas.book.definition import Report
@@ -96,7 +99,7 @@ def build_report(
     name = name_of(file, values)
     try:
         key = key_of(file, sources, style, values) if cache.load(_noted(name, out)) else None
-        unchanged = None if key is None else _unchanged(name, out, formats, cache, key)
+        unchanged = None if key is None else _unchanged(file, name, out, formats, cache, sources, key)
         return unchanged or _build(file, name, values, out, formats, style, jobs, cache, sources, key, progress)
     except OSError as error:
         place = f": {error.filename}" if error.filename else ""
@@ -104,37 +107,53 @@ def build_report(
 
 
 def key_of(file: Path, sources: Sources, style: str | None = None, values: Mapping[str, Any] | None = None) -> str:
-    """Return the digest of all that a report depends on: file, inputs, code, recipes, templates, records, libraries.
+    """Return the digest of all that a report depends on but for the answers of those beside it, see `outlines`.
 
     `style` is a style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for
     none. `sources` digests files of code.
     """
-    from atlas import gl
+    return digest(_own(file, sources), related_to(file), values or {}, sources.named(style), _program(sources))
 
+
+def _own(file: Path, sources: Sources) -> str:
+    """Return the digest of a report's file, and of the recipes, style sheets and bibliographies beside it."""
     text = file.read_bytes()
     neighbours = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
     sources_beside = (
         path for path in neighbours if os.fsencode(path.name) in text or (b"gallery" in text and path.suffix == ".py")
     )
-    code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py"), *sources_beside]
+    return sources.closure([file, *file.parent.glob("*.bib"), *sources_beside])
+
+
+@lru_cache(maxsize=1)
+def _program(sources: Sources) -> str:
+    """Return the digest of what every report depends on: code, recipes, templates, records, libraries."""
+    from atlas import gl
+
+    code = [PACKAGE / "book" / "building" / "report.py", *folder("figures").glob("*.py")]
     places = folder("templates"), folder("reports") / "data", PACKAGE
     extra = (path for place in places for path in place.rglob("*") if path.suffix not in {".py", ".pyc"})
-    related = [find(name) for name in related_to(file)]
-    content = sources.closure([file, *related, *file.parent.glob("*.bib"), *code, *filter(Path.is_file, extra)])
+    content = sources.closure([*code, *filter(Path.is_file, extra)])
     sources.save()
-    return digest(content, values or {}, sources.named(style), sys.version_info[:2], versions(), gl.library())
+    return digest(content, sys.version_info[:2], versions(), gl.library())
 
 
-def _unchanged(name: str, out: Path, formats: Sequence[str], cache: Cache, key: str) -> Built | None:
+def _unchanged(
+    file: Path, name: str, out: Path, formats: Sequence[str], cache: Cache, sources: Sources, key: str
+) -> Built | None:
     """Return the `Built` of the existing report if each of its `formats` was built with this key, else None.
 
-    Its files must be unedited, too. `name` is that of its folder in `out`.
+    Its files must be unedited, and the reports beside it must answer what it asked as before. `name` is that of its
+    folder in `out`.
     """
     record_before = cache.load(_noted(name, out))
     for form in formats:
         record = record_before.get(form, {"key": None})
         if record["key"] != key or any(digest_of(out / file) != digest for file, digest in record["files"].items()):
             return None
+    beside = outlines(file, cache, sources)
+    if not all(beside.agrees(record_before[form]["beside"]) for form in formats):
+        return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), record_before["pages"], record_before["figures"], reasons=reasons)
 
@@ -190,7 +209,7 @@ def _build(
     key = found_out.result()
     times["figures"] = time.perf_counter()
     progress(steps - 2, steps, "texts")
-    document = document_of(report, file, drawings, builds)
+    document = document_of(report, file, drawings, builds, cache, sources)
     times["tables"] = time.perf_counter()
     set_texts(document, formats, cache, sources)
     times["texts"] = time.perf_counter()
@@ -200,7 +219,9 @@ def _build(
     edited: list[str] = []
     for form, files in files_of(document, formats, builds, cache, sources):
         try:
-            _publish(report.name, out, form, files, None if failures else key, counts, cache)
+            _publish(document, out, form, files, None if failures else key, counts, cache)
+            if form == "html" and "pdf" in formats:
+                progress(steps - 1, steps, f"{_places(out, name)[0]} is ready; the PDF follows.")
         except AtlasError as error:  # of files that a user has edited, which stay
             edited.append(str(error))
     if edited:
@@ -220,7 +241,7 @@ def _build(
 
 
 def _publish(
-    name: str,
+    document: "Document",
     out: Path,
     form: str,
     files: Mapping[str, bytes],
@@ -230,19 +251,25 @@ def _publish(
 ) -> None:
     """Write the files of the format `form`, contents by path, into `out`; save digests, key and counts in the cache.
 
-    `key` is None if a figure failed, so that the next build starts anew; `counts` are the numbers of pages and figures.
-    Raises AtlasError for files that the user edited.
+    So are the answers of the reports beside it. `key` is None if a figure failed, so that the next build starts anew;
+    `counts` are the numbers of pages and figures. Raises AtlasError for files that the user edited.
     """
+    name = document.report.name
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
     publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
-    record[form] = {"key": key, "files": digests}
+    record[form] = {"key": key, "files": digests, "beside": document.beside.answers}
     cache.save(_noted(name, out), {**record, **counts})
 
 
 def document_of(
-    report: "Report", file: Path, drawings: "Mapping[str, Picture]", builds: "Mapping[FigureBuild, Picture]"
+    report: "Report",
+    file: Path,
+    drawings: "Mapping[str, Picture]",
+    builds: "Mapping[FigureBuild, Picture]",
+    cache: Cache,
+    sources: Sources,
 ) -> "Document":
     """Return the `Document` of a report, with computed tables; `builds` gives the drawn figures their captions.
 
@@ -256,17 +283,37 @@ def document_of(
     for figure, picture in builds.items():
         describe(figure, picture)
     works = bibliography.read(file.parent / report.bibliography) if report.bibliography else None
-    return compose(report, drawings, gather(report), works, outlines(report))
+    appendices = gather(report, partial(_reference, cache, sources))
+    return compose(report, drawings, appendices, works, outlines(file, cache, sources))
 
 
-def outlines(report: "Report") -> "dict[str, Document]":
-    """Return the reports related to this one by name: `Document`s with numbers and anchors, without computed tables."""
-    from atlas.book.compose import compose
-    from atlas.book.load import load
-    from atlas.book.pictures import pictures
+def _reference(cache: Cache, sources: Sources) -> "dict[str, Described]":
+    """Return `atlas.book.building.records.described`, which loads the whole package, from the cache if that has it."""
+    from atlas.book.appendices import Described
+    from atlas.book.building.records import described
 
-    related = (load(find(name)) for name in report.related)
-    return {document.name: compose(document, pictures(document), outline=True) for document in related}
+    key = digest("reference", _program(sources))
+    content = cache.recall(key, lambda: msgspec.json.encode(described()))
+    return msgspec.json.decode(content, type=dict[str, Described])
+
+
+def outlines(file: Path, cache: Cache, sources: Sources) -> Beside:
+    """Return the reports related to that of a file in outline: numbers and anchors, but no computed tables."""
+
+    def outline(file: Path) -> bytes:
+        from atlas.book.compose import compose
+        from atlas.book.load import load
+        from atlas.book.pictures import pictures
+
+        report = load(file)
+        return msgspec.json.encode(compose(report, pictures(report), outline=True).outline)
+
+    def remembered(file: Path) -> Outline:
+        key = digest("outline", _own(file, sources), _program(sources))
+        made: Outline = msgspec.json.decode(cache.recall(key, partial(outline, file)))
+        return made
+
+    return Beside(remembered(find(name)) for name in related_to(file))
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
