@@ -28,7 +28,8 @@ class Actions:
     Attributes
     ----------
     names : tuple of str
-        Names of the k angles, such as "nutation", "precession" and "spin".
+        Names of the k angles: "nutation", "precession" and "spin" without those that stand still, or "f1", "f2", "f3"
+        of `AsymmetricMotion.frequencies`.
     values : ndarray, shape (k,)
         Actions, in inertia/time.
     rates : ndarray, shape (k,)

@@ -556,7 +556,7 @@ class Motion(Shown, Generic[Single]):
         of : {"rotation", "axis", "angular_velocity", "field"}
             Function: R(t), its third column, Omega(t) in the body or K(t) in the body.
         least : float
-            Smallest amplitude kept, relative to the root mean square of the function.
+            Smallest amplitude kept, relative to the root mean square of the function, from 1e-13 to below 1.
 
         Returns
         -------
@@ -568,7 +568,7 @@ class Motion(Shown, Generic[Single]):
         DomainError
             On a separatrix, and for a motion without a closed form.
         AtlasError
-            For an array of motions.
+            For an array of motions, and for another `of` or `least`.
 
         Notes
         -----

@@ -51,7 +51,7 @@ class Spectrum:
     of : str
         Function: "rotation", "axis", "angular_velocity" or "field".
     names : tuple of str
-        Names of the k basic rates, such as "nutation", "precession" and "spin".
+        Names of the k basic rates that occur in some line, such as "nutation", "precession" and "spin".
     rates : ndarray, shape (k,)
         Basic rates, in rad/time.
     frequencies : ndarray, shape (N,)

@@ -32,8 +32,8 @@ class Lattice:
 
     `form` is "trigonometric", "hyperbolic" or "linear". ``half`` is half the real period T, in time, infinite on
     the separatrix; ``imaginary`` half the imaginary period, infinite where a nutation is elementary. ``oblique``
-    for two real roots: then half + i imaginary is half of a period too. ``rate`` (1/time) is the factor of the time
-    s since a turning point in the functions.
+    for two real roots: then half + i imaginary is half of a period too. ``rate`` (1/time) times the time s since a
+    turning point is the argument of the functions; it is 0 where theta is constant.
     """
 
     form: str

@@ -50,8 +50,11 @@ Row: TypeAlias = list[Any]
 class Constants:
     """Constants of a motion: `form` says which formulas hold, `tables` holds the numbers, balls in lists by group.
 
-    The groups of `constants` are "tilt", "rates", "times", "slopes", "sum 0" (alpha) to "sum 3", and those of a
-    swing. Two motions have comparable tables if their `form` is equal.
+    The groups of `constants` are "tilt" (four, see `Nutating.tilt`), "rates" (of the sum and the difference of the
+    phases of alpha and beta, rad/time), "times" (half the period and the time since the turning point at t = 0),
+    "slopes" (the rate of the lattice and the twists of alpha and beta), and weights of sums: "sum 0" of alpha, "sum
+    1" of beta. A top with a `swing` has "sum 2" and "sum 3", its odd and even sum, and some groups more. Two
+    motions have comparable tables if their `form` is equal.
     """
 
     form: tuple[Any, ...]
@@ -202,7 +205,8 @@ def _differences(
 class Groups:
     """Constants of several motions of one form as `rows` of equal length; missing terms of sums are zeros.
 
-    `lengths` holds the number of entries of each group by name, `places` the number of the group of each entry.
+    `lengths` holds the number of entries of each group by name, `places` the number of the group of each entry; the
+    sums of alpha and beta have one number.
     """
 
     def __init__(self, motions: Sequence[Constants]) -> None:

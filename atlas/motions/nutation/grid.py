@@ -156,7 +156,7 @@ class Windows:
         self.values = np.empty((NODES * size, 9))
 
     def at(self, i: int, j: int) -> tuple[FloatArray, bool]:
-        """Return (matrices (j - i, NODES, 9) at the nodes of windows i ... j - 1, whether polynomials suffice).
+        """Return (matrices (j - i, NODES, 9) at the nodes of windows i ... j - 1, whether polynomials suffice in all).
 
         The matrices are overwritten by the next call.
         """
@@ -181,9 +181,10 @@ def window(grid: Grid, count: int) -> int:
 
 
 def fill_windows(grid: Grid, length: int, out: FloatArray) -> None:
-    """Write R on a grid into ``out`` (count, 3, 3): a polynomial per window of ``length`` times where it is accurate.
+    """Write R on a grid into ``out`` (count, 3, 3), by a polynomial in each window of ``length`` times.
 
-    Other windows, and the last incomplete one, are evaluated time by time.
+    Windows are tried by blocks of at most `WINDOWS_AT_ONCE`. A block in which a polynomial is not accurate, and the
+    last incomplete window, are evaluated time by time.
     """
     rows, count = out.reshape(-1, 9), len(out) // length
 

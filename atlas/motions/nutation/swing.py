@@ -143,7 +143,10 @@ class Swing:
         return self._turn(np.copysign(1.0, x) * odd, even)
 
     def _between(self, x: Numbers) -> Numbers:
-        """Return artanh(O/E), (m,), for A > 0 and x >= 0, as the logarithm of sums of positive terms; x is |rate s|."""
+        """Return artanh(O/E), (m,), for A > 0 and x >= 0, as the logarithm of sums of positive terms; x is |rate s|.
+
+        For O and E see `_turn`.
+        """
         d, smaller = self.depth, np.minimum(x, self.depth)
         odd, low = np.zeros_like(x), np.zeros_like(x)
         for n in range(self.odd.size):
@@ -158,7 +161,11 @@ class Swing:
         return np.asarray(np.where(smaller < MAX_EXP_ARGUMENT, by_log1p, by_log) / 2)
 
     def _turn(self, odd: Numbers, even: Numbers) -> Numbers:
-        """Return half the angle of swing in rad from the sums O (``odd``) and E (``even``)."""
+        """Return half the angle of swing in rad from the sums O (``odd``) and E (``even``).
+
+        O is sqrt(|A|) times the odd sum of the certified `Swing`, E its even sum; without the factor where |A| is
+        negligible.
+        """
         if self.sign < 0:
             return np.asarray(self.factor * np.arctan2(odd, even))
         return np.asarray(self.factor * (np.arctanh(odd / even) if self.sign else odd / even))
@@ -187,5 +194,5 @@ class Crossing:
 
 
 def _is_known(x: arb, largest: arb) -> bool:
-    """Whether a weight x is accurate relative to itself, or negligible beside the ``largest``."""
+    """Whether a weight x is accurate relative to itself, or negligible compared with the ``largest``."""
     return bool(x.rad() <= ACCURATE * abs(x.mid()) or x.rad() <= ACCURATE**2 * largest)

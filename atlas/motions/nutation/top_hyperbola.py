@@ -133,10 +133,11 @@ class TopHyperbola(Shown):
     def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
         """Return two pairs of arrays (omega2, omega3), the branch w > 0 first, even in the logarithm of |w|.
 
-        Both are in rad/time, and ``points`` is the number of points of both branches together. |w| runs from where
-        |v| to where |w| is ``reach`` times b, the distance of the centre from rest or, if larger, sqrt|D|. Each
-        omega3 is that of the double omega2, rounded once. Raises DomainError where the curve is two straight lines,
-        n3 = 0 without a linear potential, AtlasError for fewer than two points.
+        Both are in rad/time, and ``points`` is the number of points of both branches together. For w, v and D see
+        the class. |w| runs from where |v| to where |w| is ``reach`` times b, the largest of three rates: the
+        distance of the centre from rest, sqrt|D|, and the root of I |w v| near the pole (b is 1 if all are zero).
+        Each omega3 is that of the double omega2, rounded once. Raises DomainError where the curve is two straight
+        lines, n3 = 0 without a linear potential, AtlasError for fewer than two points.
         """
         I2, I3, _, _, n2, n3, a0, _ = self._top
         if n3 == 0 and a0 == 0:
