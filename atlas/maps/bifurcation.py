@@ -26,13 +26,16 @@ All functions are pure, in plain floats, and broadcast: they serve figures and c
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from math import prod
 from typing import Any, Literal
 
 import numpy as np
+from flint import fmpq_poly
 from numpy.typing import NDArray
 
 from atlas.arithmetic.inputs import FloatArray, number, plain, positive, real, vector, vectors
 from atlas.arithmetic.lazy import cached_property
+from atlas.arithmetic.words import exact
 from atlas.bodies.clebsch_integrals import clebsch
 from atlas.bodies.inertia import inertia_tensor
 from atlas.bodies.integrals import shape_factors
@@ -82,10 +85,6 @@ def potential(ratio: Any, b: Any, M3: Any, p: Any, nu: Any) -> Any:
 
 
 Oval = Literal["bounded", "unbounded"]
-
-
-MAX_BISECTIONS, STRETCH_PLACES = 60, 400
-"""Bisections for a border of stability, and places of a stretch between which one is looked for."""
 
 
 @dataclass(frozen=True)
@@ -221,24 +220,26 @@ class Bifurcation:
             yield int(axis), start, border, before
             yield int(axis), max(start, border), float("inf"), after
 
+    @cached_property
+    def _cusps(self) -> FloatArray:
+        """Places z (n,), ascending, where C of `splitting` is zero on a branch: 16 b^4 P^3 = c^2 (P'^2 - 2 P P'')^2.
+
+        P is that of `_cubic`. No root is missed, since all are isolated in balls.
+        """
+        b, c, *entries = exact(self.b, self.c, *self.a)
+        P = prod((fmpq_poly([entry, 1]) for entry in entries), start=fmpq_poly([1]))
+        slope = P.derivative()
+        equation = 16 * b**4 * P**3 - c * c * (slope * slope - 2 * P * slope.derivative()) ** 2
+        return np.sort([float(z.real.mid()) for z, _ in equation.complex_roots() if z.imag == 0])
+
     def _borders(self, start: float, stop: float, branch: int) -> list[float]:
         """Return a list of the places z between ``start`` and ``stop`` where stability changes: the cusps of the curve.
 
-        ``branch`` is as for `splitting`. Two cusps between neighbouring trial places are missed.
+        ``branch`` is as for `splitting`.
         """
-        z = start + (stop - start) * np.sin(np.linspace(0, np.pi / 2, STRETCH_PLACES + 2)[1:-1]) ** 2
-        stable = self.splitting(z, branch) > 0
-        borders = []
-        for k in np.flatnonzero(stable[1:] != stable[:-1]):
-            low, high = z[k], z[k + 1]
-            for _ in range(MAX_BISECTIONS):
-                middle = (low + high) / 2
-                if bool(self.splitting(middle, branch) > 0) == stable[k]:
-                    low = middle
-                else:
-                    high = middle
-            borders.append(float(high))
-        return borders
+        z = self._cusps[(self._cusps > start) & (self._cusps < stop)]
+        P, slope, x = self._cubic(z)
+        return z[branch * self.c * (slope * slope - 4 * P * x.sum(-1)) > 0].tolist()
 
     @property
     def rest(self) -> FloatArray | None:

@@ -34,6 +34,9 @@ PRECISION = 128
 NEWTON_STEPS = 40
 """Number of steps of Newton's method to a state with given values."""
 
+MAX_RESIDUAL = 1e-13
+"""Largest error of a value of that state, relative to its terms: rounding leaves some 1e-15."""
+
 GRID = np.concatenate([np.geomspace(1e-12, 1e-3, 400)[:-1], 1 - np.linspace(1.0, -1.0, 2001)[1:-1]])
 """Places 1 - end nu at which the potential is looked at, from the pole nu = end, where they are dense, to the other."""
 
@@ -332,13 +335,17 @@ def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tupl
 def _with_values(bifurcation: Bifurcation, state: FloatArray, values_sought: FloatArray) -> FloatArray:
     """Return (M, K), shape (6,), near a ``state`` (6,), with the values sought of (H, F, K^2, (M, K)), shape (4,).
 
-    ``bifurcation`` is that of the body. The result is that of `NEWTON_STEPS` steps of Newton's method, without a
-    check of convergence.
+    ``bifurcation`` is that of the body. Raises DomainError where `NEWTON_STEPS` steps of Newton's method leave a value
+    off by more than `MAX_RESIDUAL` of its terms.
     """
     I, a = bifurcation.inertia, bifurcation.a
     for _ in range(NEWTON_STEPS):
         M, K = state[:3], state[3:]
         values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
+        sizes = np.array([values[0], M @ M + K @ (abs(a) * K), K @ K, abs(M) @ abs(K)])
+        if (abs(values - values_sought) <= MAX_RESIDUAL * sizes).all():
+            return state
         slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])
         state = state - np.linalg.lstsq(slopes, values - values_sought)[0]
-    return state
+    H, F = values_sought[:2]
+    raise DomainError(f"No state with F = {F:g} and H = {H:g} was found: choose a loop nearer to the spin.")

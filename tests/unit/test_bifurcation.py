@@ -170,6 +170,21 @@ def test_the_isolated_focus_has_monodromy_and_a_regular_value_has_none() -> None
     assert matrix_trivial == ((1, 0), (0, 1))
 
 
+def test_stability_changes_only_where_a_stretch_ends() -> None:
+    """A thousand places of each stretch are of its kind, also next to c = 0.50147, where pairs of cusps merge."""
+    for c in (*MOMENTA, 0.501469):
+        diagram = Bifurcation(BODY, 1.0, c)
+        for stretch in diagram.stretches():
+            z = np.linspace(stretch.low, stretch.high, 1002)[1:-1]
+            assert ((diagram.splitting(z, stretch.branch) > 0) == stretch.stable).all()
+
+
+def test_values_of_no_motion_are_refused() -> None:
+    """A state without these values is an error, not the last step of a search."""
+    with pytest.raises(DomainError, match="H = -3"):
+        carried(Bifurcation(BODY, 1.0, 0.8), 2, np.array([[0.0, -3.0]]))
+
+
 def test_the_edge_is_reached() -> None:
     """Where the drawing has its edge there is an elliptic motion with these H, F and c: K is found from z."""
     diagram = Bifurcation(BODY, 1.0, 0.8)

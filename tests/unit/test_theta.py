@@ -49,14 +49,17 @@ def test_the_remainder_of_a_sum_is_within_its_bound(name: str, oblique: bool, fo
         for low, high in zip(few, many, strict=True):
             n = len(low.odd)
             frequency, growth = low.frequency(n), lattice.reach
-            remainder, slope = arb(0), arb(0)
+            remainder, slope, bend = arb(0), arb(0), arb(0)
             for m, a, b in zip(count(n), high.odd[n:], high.even[n:], strict=False):
                 k = high.frequency(m)
                 size = (abs(a) + abs(b)) * ((k - frequency) * growth).exp()
-                remainder, slope = remainder + size, slope + k * size
+                remainder, slope, bend = remainder + size, slope + k * size, bend + k * k * size
             assert len(high.odd) > n
             assert 0 < remainder < low.bound
             assert slope < 2 * frequency * low.bound
+            derivative = low.derivative
+            assert lattice.rate * slope < derivative.bound
+            assert lattice.rate * bend < 2 * frequency * derivative.bound
 
 
 @pytest.mark.parametrize(

@@ -125,13 +125,18 @@ class Sum:
 
     @property
     def derivative(self) -> "Sum":
-        """The derivative by s, a `Sum` of the same form, with the `bound` of this sum, not one of its own."""
+        """The derivative by s, a `Sum` of the same form with a `bound` for its value and its slope in `at`.
+
+        Terms left out fall by more than half each, so their sum times k is at most 2 k `bound`, k the first left out,
+        and times k^2 at most 8 k^2 `bound`.
+        """
         rate, sign = self.lattice.rate, -1 if self.lattice.form == "trigonometric" else 1
         if self.lattice.form == "linear":
             return Sum(self.lattice, (acb(0),), (self.odd[0] * rate,), arb(0), self.doubled)
         odd = tuple(sign * rate * self.frequency(n) * b for n, b in enumerate(self.even))
         even = tuple(rate * self.frequency(n) * a for n, a in enumerate(self.odd))
-        return Sum(self.lattice, odd, even, self.bound, self.doubled)
+        bound = 4 * self.frequency(len(self.odd)) * rate * self.bound
+        return Sum(self.lattice, odd, even, bound, self.doubled)
 
     @property
     def logarithmic_slope(self) -> acb:

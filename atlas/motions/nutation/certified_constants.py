@@ -170,24 +170,24 @@ class Nutation:
         factor *= acb(0, -twist * origin).exp()
         return Parameter(factor, rate, arb(sphere.frames[pole]), twist, function, turn)
 
-    def _function(self, name: int) -> tuple[Sum, arb, int]:
-        """Return (the `Sum` with its zero at the pole ``name``, -1 or 1; the zero's imaginary part y; a sign).
+    def _function(self, pole: int) -> tuple[Sum, arb, int]:
+        """Return (the `Sum` with its zero at the ``pole``, -1 or 1; the zero's imaginary part y; a sign).
 
         The sign is that of the torque at the pole, reversed where the pole is next to the other turning point but
         reached through an infinity of u, and again where the zero was moved, see `Sum.shifted`. Where the vector
         meets the pole the sum is real up to a phase, and the sign is 0, or as for a positive torque where y is half
         the imaginary period.
         """
-        q, pole, sense = self.quartic, self.sphere.poles[name], self.sphere.signs[name]
+        q, pole_u, sense = self.quartic, self.sphere.poles[pole], self.sphere.signs[pole]
         # the pole -1 is where Omega3 is highest
-        next_to = q.high if name == -1 else q.low
-        beyond = next_to != self.start.place and not self._through_infinity(name)
+        next_to = q.high if pole == -1 else q.low
+        beyond = next_to != self.start.place and not self._through_infinity(pole)
         if sense:
-            y = (self.turning(next_to) if beyond else self.start).imaginary_time(pole)
+            y = (self.turning(next_to) if beyond else self.start).imaginary_time(pole_u)
             if not beyond and next_to != self.start.place:
                 sense = -sense
         else:
-            place = next(i for i, r in enumerate(self.roots) if r.is_real and r.value.real.overlaps(pole))
+            place = next(i for i, r in enumerate(self.roots) if r.is_real and r.value.real.overlaps(pole_u))
             if self.roots[place].multiplicity > 1:
                 return constant(self.lattice), arb(0), 0
             if place == self.start.place:
@@ -199,16 +199,16 @@ class Nutation:
         function = vanishing_at(self.lattice, y, beyond=beyond)
         return function, y, -sense if function.shifted else sense
 
-    def _through_infinity(self, name: int) -> bool:
-        """Whether u(i y), from the first turning point on, reaches the pole ``name`` only beyond an infinity of u."""
+    def _through_infinity(self, pole: int) -> bool:
+        """Whether u(i y), from the first turning point on, reaches the ``pole`` only beyond an infinity of u."""
         if self.quartic.bend >= 0:
             return False
         if len(self.real) <= 2:
             return True
         # the other two roots must not lie between
-        pole = self.sphere.poles[name]
-        beyond = pole - self.real[-1] if name == -1 else self.real[0] - pole
-        return bool(beyond > 0) or (self.sphere.signs[name] == 0 and bool(beyond.overlaps(arb(0))))
+        pole_u = self.sphere.poles[pole]
+        beyond = pole_u - self.real[-1] if pole == -1 else self.real[0] - pole_u
+        return bool(beyond > 0) or (self.sphere.signs[pole] == 0 and bool(beyond.overlaps(arb(0))))
 
     def _heteroclinic(self) -> Solution:
         """Return the `Solution` between the poles, nu = ± tanh(sqrt(I-1) b s): p = M3 = 0, no phase but the frame's.

@@ -39,17 +39,17 @@ class Weighted:
     b_p w*) along the third axis and b_p x - a_p y, the first component plus i times the second, across. a and b are
     alpha and beta without their phases, a_p and b_p their derivatives, u = 2 a/(|a|^2 + |b|^2), w = 2 b/(|a|^2 +
     |b|^2), x and y are u and w times exp(i f), f the sum of both phases. `to_lab` (3, 3) takes vectors into the
-    laboratory, `names` (N, P) are the weights of the inputs. Besides, p turns the body about axes of the laboratory
-    by `turns` (N, 3) and about its own axis by `spins` (N,), in rad per unit of p.
+    laboratory, `input_weights` (N, P) are the weights of the inputs. Besides, p turns the body about axes of the
+    laboratory by `turns` (N, 3) and about its own axis by `spins` (N,), in rad per unit of p.
     """
 
     def __init__(
-        self, pair: VariedPair, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray
+        self, pair: VariedPair, to_lab: FloatArray, input_weights: FloatArray, turns: FloatArray, spins: FloatArray
     ) -> None:
-        self.pair, self.axes, self.names = pair, to_lab @ pair.axes, names
+        self.pair, self.axes, self.input_weights = pair, to_lab @ pair.axes, input_weights
         self.tables = []
         for i, table in enumerate(pair.tables):
-            rows = np.concatenate([table[:2], names @ table[2:]])
+            rows = np.concatenate([table[:2], input_weights @ table[2:]])
             sloped = np.array([rows, pair.slope(rows, i)])
             self.tables.append(np.stack([sloped.real, sloped.imag], 1))
         (twist_a, twist_b), turning, spun = (pair.twisting, pair.turning @ to_lab.T, np.outer(spins, np.eye(7)[3]))
@@ -64,10 +64,10 @@ class Weighted:
                 twist_a + twist_b,
             ]
         )
-        self.fixed, combined = names @ turning + turns, names @ columns + spun
+        self.fixed, combined = input_weights @ turning + turns, input_weights @ columns + spun
         self.columns = np.array([np.column_stack([combined, x]) for x in self.fixed.T])
         # of terms before they are combined, where cancellation may happen
-        sizes, fixed = abs(names), (abs(names) @ abs(turning) + abs(turns)).max(1)
+        sizes, fixed = abs(input_weights), (abs(input_weights) @ abs(turning) + abs(turns)).max(1)
         self.sizes = np.column_stack([sizes @ abs(columns) + abs(spun), fixed])
         self.weights = [sizes @ (abs(x[2:].real) + abs(x[2:].imag)) for x in pair.tables]
         sizes = sum(x.sum(1) for x in self.weights) + self.sizes[:, 3::4].max(1)
@@ -94,13 +94,13 @@ class Weighted:
         for i in levels:
             vectors[i] += self._sum(ways, derivatives, i, slice(2, None))
         if pair.swing:
-            change = pair.swing.change(self.names, s, count)
+            change = pair.swing.change(self.input_weights, s, count)
             for i in levels:
                 vectors[i] += axis[i][:, None] * change
             if slopes:
                 normal = np.cross(axis[0], self.axes[:, 2:], axis=0)
                 changes = ((vectors[0] - self.fixed.T[:, :, None]) * normal[:, None]).sum(0)
-                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.names, nu, changes)
+                vectors[1] += axis[0][:, None] * pair.swing.slopes(self.input_weights, nu, changes)
         basis_size = abs(basis[0]).max(0)
         if not self.cancels and (self.sizes @ basis_size.max(1)).max() < LOST_TERM:
             return vectors, 0.0
@@ -206,30 +206,32 @@ class Varied:
         """The `Differences` of this motion, made once: derivatives in its inputs at single times."""
         return self._make()
 
-    def weighted(self, to_lab: FloatArray, names: FloatArray, turns: FloatArray, spins: FloatArray) -> list[Weighted]:
+    def weighted(
+        self, to_lab: FloatArray, input_weights: FloatArray, turns: FloatArray, spins: FloatArray
+    ) -> list[Weighted]:
         """Return the `Weighted` evaluators of N combinations of inputs, one for each group; v is the sum of all.
 
-        ``to_lab``, ``names``, ``turns`` and ``spins`` are those of `Weighted`; the list is empty where the
+        ``to_lab``, ``input_weights``, ``turns`` and ``spins`` are those of `Weighted`; the list is empty where the
         constants have no derivatives.
         """
         weighted: list[Weighted] = []
         for group, pair in self.pairs:
             share = 0 if weighted else 1
-            weighted.append(Weighted(pair, to_lab, names[:, group], share * turns, share * spins))
+            weighted.append(Weighted(pair, to_lab, input_weights[:, group], share * turns, share * spins))
         return weighted
 
     def vectors(
-        self, t: FloatArray, slopes: bool, to_lab: FloatArray, names: FloatArray, turns: FloatArray,
+        self, t: FloatArray, slopes: bool, to_lab: FloatArray, input_weights: FloatArray, turns: FloatArray,
         spins: FloatArray,
         combinations: list[Weighted], *, certified: bool,
     ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
-        They are in the laboratory. ``to_lab``, ``names``, ``turns`` and ``spins`` are those of `Weighted`, and
+        They are in the laboratory. ``to_lab``, ``input_weights``, ``turns`` and ``spins`` are those of `Weighted`, and
         ``combinations`` is the list that `weighted` makes of them. Raises DomainError at a time where the motion is
         too near a special case, and, unless ``certified``, where fewer than eight digits remain.
         """
-        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
+        out = [np.empty((t.size, len(input_weights), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             block = slice(i, i + BLOCK)
             terms: Any = 0.0 if combinations else np.nan
@@ -249,9 +251,9 @@ class Varied:
                 raise DomainError("The terms of these derivatives cancel.")
             for j in (i + np.flatnonzero(singles)).tolist():
                 v, faster, axis, rate = self.differences.at(float(t[j]))
-                out[0][j] = names @ v @ to_lab.T + turns + np.outer(spins, to_lab @ axis)
+                out[0][j] = input_weights @ v @ to_lab.T + turns + np.outer(spins, to_lab @ axis)
                 if slopes:
-                    out[1][j] = names @ faster @ to_lab.T + np.outer(spins, to_lab @ rate)
+                    out[1][j] = input_weights @ faster @ to_lab.T + np.outer(spins, to_lab @ rate)
         return out
 
 

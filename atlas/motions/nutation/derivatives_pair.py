@@ -172,11 +172,10 @@ class Swing:
         start, zero = np.array([pair.origin]), np.zeros(1)
         self.columns[:, 6] = -self.change(np.eye(len(As)), start, zero)[:, 0]
 
-    def change(self, names: FloatArray, s: FloatArray, count: FloatArray) -> Array:
+    def change(self, input_weights: FloatArray, s: FloatArray, count: FloatArray) -> Array:
         """Return derivatives of the swing's angle, in rad, without terms linear in t, by N combinations, (N, m).
 
-        ``names`` (N, inputs) are the weights of the inputs, ``s`` (m,) the times in the period, ``count`` (m,) the
-        whole periods before.
+        ``input_weights`` is (N, inputs), ``s`` (m,) the times in the period, ``count`` (m,) the whole periods before.
         """
         values, bys, functions = [], [], []
         for i, weights in enumerate(self.sums):
@@ -198,10 +197,10 @@ class Swing:
             self.twist * s + integral, self.kappa * s, self.kappa * by_A, s * by_s, slope, count * slope,
             np.ones(s.size),
         ])  # fmt: skip
-        changes = (names @ self.columns) @ basis
+        changes = (input_weights @ self.columns) @ basis
         weight = 2 * self.kappa / (e * e - self.A * o * o)
         for change, f, factor in zip(self.changes, functions, (e, -o), strict=True):
-            changes += (names @ change) @ (f * (weight * factor))
+            changes += (input_weights @ change) @ (f * (weight * factor))
         return np.asarray(changes)
 
     def _integral_of_nu(self, o: FloatArray, e: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -222,13 +221,13 @@ class Swing:
         by_A[is_small] = series * u**3
         return integral, by_A
 
-    def slopes(self, names: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
+    def slopes(self, input_weights: FloatArray, nu: FloatArray, changes: FloatArray) -> Array:
         """Return the rates (N, m), in rad/time, of the derivatives of the angle, without their constant parts.
 
-        The angle's own rate is kappa nu. ``names`` (N, inputs) are the weights of the inputs, ``nu`` (m,) is the
-        cosine of axis and field, ``changes`` (N, m) are its derivatives.
+        The angle's own rate is kappa nu. ``input_weights`` is (N, inputs), ``nu`` (m,) the cosine of axis and field,
+        ``changes`` (N, m) are its derivatives.
         """
-        varied = names @ self.spins
+        varied = input_weights @ self.spins
         return np.asarray(varied[:, :1] * nu + varied[:, 1:] + self.kappa * changes)
 
 

@@ -96,16 +96,16 @@ class GrowthError(NotCertifiedError):
 class _Way:
     """Integration of a flow in progress: the current state in integers, and the bound on its error.
 
-    ``rates`` are those of `Flow.rates`, ``start`` the six numbers W, K in units of 2^-``bits``, and ``w_rates`` the
-    first step that is tried, in parts of the way. `state` has W, K and q, ten integers, `remaining` the part of the
+    ``rates`` are those of `Flow.rates`, ``start`` the six numbers W, K in units of 2^-``bits``, and ``first_step`` the
+    first step that is tried, in `PARTS`. `state` has W, K and q, ten integers, `remaining` the part of the
     way not gone, in `PARTS`. Without ``proven`` no errors are bounded.
     """
 
-    def __init__(self, rates: Rates, start: list[int], bits: int, w_rates: int, *, proven: bool) -> None:
+    def __init__(self, rates: Rates, start: list[int], bits: int, first_step: int, *, proven: bool) -> None:
         self.rates, self.bits, self.proven = rates, bits, proven
         self.state = [*start, 1 << bits, 0, 0, 0]
         self.remaining, self.steps = PARTS, 0
-        self.guess = w_rates
+        self.guess = first_step
         self.order = max(12, int(TERMS_PER_BIT * bits))
         self.X: Matrix = np.eye(6)
         self.w: Matrix = np.ones(6)  # the start is rounded
@@ -149,11 +149,11 @@ class _Way:
     def _series(self, h: fmpq) -> Series:
         """Return Taylor coefficients of W, K and q over a step h: ten lists of integers in units of 2^-bits."""
         b = self.bits
-        V, w_rates, second = self._scaled_rates(h)
+        V, w_rates, k_rates = self._scaled_rates(h)
         rows = [[x] for x in (*self.state, *(v * w >> b for v, w in zip(V, self.state, strict=False)))]
         for n, c in enumerate(_products(rows, self.order, BLOCK if b >= MIN_FLINT_PRECISION else self.order)):
             for i in range(3):
-                rows[i].append((w_rates[i] * c[i] + second[i] * c[3 + i]) // ((n + 1) << 2 * b))
+                rows[i].append((w_rates[i] * c[i] + k_rates[i] * c[3 + i]) // ((n + 1) << 2 * b))
                 rows[3 + i].append((c[6 + i] - c[9 + i]) // ((n + 1) << b))
                 rows[7 + i].append((c[15 + i] + c[18 + i] - c[21 + i]) // ((n + 1) << b + 1))
                 rows[10 + i].append(V[i] * rows[i][-1] >> b)
@@ -200,8 +200,8 @@ class _Way:
         """
         size = [_float(sum(map(abs, row)), self.bits) for row in rows[:6]]
         W, K = 1.01 * sqrt(sum(x * x for x in size[:3])), 1.01 * sqrt(sum(x * x for x in size[3:]))
-        most, w_rates, second = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
-        return W, K, most, 2 * w_rates * W + 2 * second * K + most * (W + K), 2 * (w_rates + second + most)
+        V_rate, w_rates, k_rates = (1.01 * max(abs(float(h * x)) for x in row) for row in self.rates)
+        return W, K, V_rate, 2 * w_rates * W + 2 * k_rates * K + V_rate * (W + K), 2 * (w_rates + k_rates + V_rate)
 
     def _defect(self, rows: Series, h: fmpq, W: float, K: float) -> tuple[float, float]:
         """Return two bounds, in units of 2^-bits, on p' - h f(p) over the step: of (W, K) together, and of q.
@@ -209,12 +209,12 @@ class _Way:
         p are the polynomials with coefficients ``rows``, h is the length of the step, W and K bound |W| and |K| there.
         """
         b = self.bits
-        V, w_rates, second = self._scaled_rates(h)
+        V, w_rates, k_rates = self._scaled_rates(h)
         p = [fmpz_poly(row) for row in rows]
         p += [v * x for v, x in zip(V, p, strict=False)]  # U in units of 2^-2b
         c = [p[x] * p[y] for x, y in PRODUCTS]
         unit = 1 << 2 * b
-        defects = [_size(p[i].derivative() * unit - w_rates[i] * c[i] - second[i] * c[3 + i], 2 * b) for i in range(3)]
+        defects = [_size(p[i].derivative() * unit - w_rates[i] * c[i] - k_rates[i] * c[3 + i], 2 * b) for i in range(3)]
         defects += [_size(p[3 + i].derivative() * unit - c[6 + i] + c[9 + i], 2 * b) for i in range(3)]
         turn = [_size(p[6].derivative() * (2 * unit) + c[12] + c[13] + c[14], 2 * b + 1)]
         turn += [
@@ -338,40 +338,40 @@ def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
         size *= 2
     sums = [[0] * size for _ in PRODUCTS]
 
-    def block(w_rates: int, last_term: int) -> Iterator[list[int]]:
-        if last_term - w_rates <= least:
-            for n in range(w_rates, last_term):
-                back = [row[n - w_rates :: -1] for row in rows]
+    def block(start: int, stop: int) -> Iterator[list[int]]:
+        if stop - start <= least:
+            for n in range(start, stop):
+                back = [row[n - start :: -1] for row in rows]
                 for total, (x, y) in zip(sums, PRODUCTS, strict=True):
-                    total[n] += sum(map(mul, rows[x][w_rates:], back[y]))
-                    if w_rates:
-                        total[n] += sum(map(mul, rows[y][w_rates:], back[x]))
+                    total[n] += sum(map(mul, rows[x][start:], back[y]))
+                    if start:
+                        total[n] += sum(map(mul, rows[y][start:], back[x]))
                 yield [total[n] for total in sums]
             return
-        middle = (w_rates + last_term) // 2
-        yield from block(w_rates, middle)
-        factors = [fmpz_poly(row[w_rates:middle]) for row in rows]
-        second_factor = [fmpz_poly(row[: last_term - w_rates]) for row in rows] if w_rates else factors
+        middle = (start + stop) // 2
+        yield from block(start, middle)
+        factors = [fmpz_poly(row[start:middle]) for row in rows]
+        lower_factors = [fmpz_poly(row[: stop - start]) for row in rows] if start else factors
         for total, (x, y) in zip(sums, PRODUCTS, strict=True):
-            product = factors[x] * second_factor[y] + (factors[y] * second_factor[x] if w_rates else 0)
-            for n in range(middle, last_term):
-                total[n] += product[n - w_rates]
-        yield from block(middle, last_term)
+            product = factors[x] * lower_factors[y] + (factors[y] * lower_factors[x] if start else 0)
+            for n in range(middle, stop):
+                total[n] += product[n - start]
+        yield from block(middle, stop)
 
     yield from islice(block(0, size), count)
 
 
-def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, second: Matrix) -> Matrix:
+def jacobian(state: Matrix, V: Matrix, w_rates: Matrix, k_rates: Matrix) -> Matrix:
     """Return the Taylor coefficients (terms, 6, 6) of the derivative of the right-hand side, times h, by (W, K).
 
-    ``state`` (6, terms) are the coefficients of W and K in a step of length h. ``V``, ``w_rates`` and ``second``, (3,)
+    ``state`` (6, terms) are the coefficients of W and K in a step of length h. ``V``, ``w_rates`` and ``k_rates``, (3,)
     each, are the three rows of `Flow.rates` times h.
     """
     W, K = state[:3], state[3:]
     J = np.zeros((state.shape[1], 6, 6))
     for i, (j, k) in enumerate(CYCLE):
         J[:, i, j], J[:, i, k] = w_rates[i] * W[k], w_rates[i] * W[j]
-        J[:, i, 3 + j], J[:, i, 3 + k] = second[i] * K[k], second[i] * K[j]
+        J[:, i, 3 + j], J[:, i, 3 + k] = k_rates[i] * K[k], k_rates[i] * K[j]
         J[:, 3 + i, 3 + j], J[:, 3 + i, 3 + k] = V[k] * W[k], -V[j] * W[j]
         J[:, 3 + i, k], J[:, 3 + i, j] = V[k] * K[j], -V[j] * K[k]
     return J

@@ -82,19 +82,19 @@ class TorusVaried:
         """Return None: nothing is prepared for combinations of inputs; the arguments are not used."""
 
     def vectors(
-        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, names: FloatArray, turns: FloatArray, *_: Any,
-        certified: bool,  # noqa: ARG002  floats have the digits, or the derivatives are refused
+        self, t: FloatArray, slopes: bool, to_laboratory: FloatArray, input_weights: FloatArray, turns: FloatArray,
+        *_: Any, certified: bool,  # noqa: ARG002  floats have the digits, or the derivatives are refused
     ) -> list[FloatArray]:  # fmt: skip
         """Return [v], or [v, R dOmega/dp] if ``slopes``, of N combinations of inputs at times t (m,), (m, N, 3) each.
 
         v is the rotation vector in the laboratory with dR/dp = [v]x R; ``to_laboratory`` (3, 3) takes vectors
-        there. ``names`` (N, inputs) are weights of the inputs, ``turns`` (N, 3) are added to v; ``certified`` is
-        not used. Raises DomainError where the field is too weak for derivatives in floats.
+        there. ``input_weights`` is (N, inputs), ``turns`` (N, 3) are added to v; ``certified`` is not used.
+        Raises DomainError where the field is too weak for derivatives in floats.
         """
-        out = [np.empty((t.size, len(names), 3)) for _ in range(1 + slopes)]
+        out = [np.empty((t.size, len(input_weights), 3)) for _ in range(1 + slopes)]
         for i in range(0, t.size, BLOCK):
             for block, values in zip(out, self._block(t[i : i + BLOCK], slopes), strict=True):
-                block[i : i + BLOCK] = np.einsum("np,pmk->mnk", names, values) @ to_laboratory.T
+                block[i : i + BLOCK] = np.einsum("np,pmk->mnk", input_weights, values) @ to_laboratory.T
         out[0] += turns
         return out
 

@@ -26,7 +26,7 @@ def of_euler(exact: AsymmetricMotion) -> Inputs:
 
 
 @dataclass(frozen=True)
-class OnTorus(Inputs):
+class TorusInputs(Inputs):
     """The `Inputs` of a motion on a torus: I1, I2, I3, K1, K2, K3, omega1, omega2, omega3.
 
     `kernel` evaluates the motion, `exact` is its certified counterpart, `cached` holds evaluators by the names of
@@ -53,7 +53,7 @@ class OnTorus(Inputs):
 
 
 def of_asymmetric(single: Any) -> Inputs:
-    """Return the `Inputs` of ``single``, a `SingleAsymmetric`: `OnTorus`, or without a field those of Euler's top.
+    """Return the `Inputs` of ``single``, a `SingleAsymmetric`: `TorusInputs`, or without a field those of Euler's top.
 
     Raises DomainError for a motion in a field without theta functions.
     """
@@ -65,7 +65,7 @@ def of_asymmetric(single: Any) -> Inputs:
             f"The motion has no theta functions whose constants could be differentiated: it is {exact.kind!r}."
         )
     size, J = size_of(*exact.field, *exact.omega), floats(exact.inertia)
-    return OnTorus(
+    return TorusInputs(
         ("I1", "I2", "I3", "K1", "K2", "K3", "omega1", "omega2", "omega3"),
         (*exact.inertia, *exact.field, *exact.omega), (*exact.inertia, *[size] * 6),
         AsymmetricMotion, {f"f{i}": lambda x, i=i: x.frequencies[i] for i in (1, 2, 3)},  # type: ignore[misc]

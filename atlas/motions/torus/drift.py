@@ -107,7 +107,7 @@ class AsymmetricDrift:
         return AsymmetricMotion(self.inertia, K, self.momentum[i] / self.inertia - K)
 
 
-class Torus:
+class TorusGrid:
     """Grid of states (M, K) on the torus of one motion, (6, n1, n2), which follows its integrals.
 
     `states` is the grid, n2 = 1 for a free body; `integrals` are H, F and, in a field, c = (M, K) and K^2; `angles`
@@ -318,7 +318,7 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
     """
     from scipy.integrate import DOP853
 
-    torus = Torus(motion)
+    torus = TorusGrid(motion)
     rate, unit, count = torus.rate, torus.unit, len(torus.integrals)
     start, end = np.append(torus.integrals, np.zeros(3)), float(t[-1] * rate)
 

@@ -67,24 +67,24 @@ def load(path: Path = VERDICTS) -> dict[str, Verdict]:
     return {name: recorded[name] for name in EQUATIONS if name in recorded}
 
 
-def _read(path: Path) -> list[dict[str, Any]]:
+def _read(path: Path) -> Any:
+    """Return the list or dictionary in the JSON file at ``path``, [] if it is missing. Raises AtlasError as `load`."""
     try:
-        entries: list[dict[str, Any]] = json.loads(path.read_text("utf-8"))
+        return json.loads(path.read_text("utf-8"))
     except FileNotFoundError:
         return []
     except json.JSONDecodeError as reason:
         raise AtlasError(
-            f"{path.name} holds no valid record ({reason}); `atlas verify --record` writes a new one"
+            f"{path.name} holds no valid record ({reason}); delete it and run `atlas verify --record`"
         ) from None
-    return entries
 
 
 def scripts(path: Path = SCRIPTS) -> dict[str, str]:
     """Return by name the recorded Python script, or the sentence on why there is none; {} if the file is missing.
 
-    Raises ValueError for a file that is no valid JSON.
+    Raises AtlasError for a file that is no valid JSON.
     """
-    return dict(json.loads(path.read_text("utf-8"))) if path.is_file() else {}
+    return dict(_read(path))
 
 
 def save_scripts(texts_by_name: Mapping[str, str], path: Path = SCRIPTS) -> None:
