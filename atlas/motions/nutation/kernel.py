@@ -283,7 +283,8 @@ class SymmetricMotion(NutatingMotion[Nutation]):
 
         Notes
         -----
-        Roots at infinity are inf and come last: two for I = 1, all four for B = 0.
+        They are in rad/time, for tops without unit. Roots at infinity are inf and come last: two for I = 1, all
+        four for B = 0.
         """
         return self._of_all("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 

@@ -104,12 +104,24 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
     @kept
     def precession_rate(self) -> FloatOrArray:
-        """Mean rate of precession about the field of the axis that K circles, in rad/time; also for constant K."""
+        """Mean rate of precession about the field of the axis that K circles, in rad/time; also for constant K.
+
+        Raises
+        ------
+        DomainError
+            On a separatrix and for the spin about the axis of the middle E_i, for one motion; an array has NaN there.
+        """
         return self._scalar("precession_rate")
 
     @kept
     def spin_rate(self) -> FloatOrArray:
-        """Mean rate of rotation about the axis that K circles: 2 pi/`period`, -2 pi/`period` or 0, in rad/time."""
+        """Mean rate of rotation about the axis that K circles: 2 pi/`period`, -2 pi/`period` or 0, in rad/time.
+
+        Raises
+        ------
+        DomainError
+            As for `precession_rate`.
+        """
         return self._scalar("spin_rate")
 
     @kept
@@ -118,9 +130,9 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
         Notes
         -----
-        "stable" means that every neighbouring start stays next to the curve. "undecided" occurs where `splitting` is
-        zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the second flow, along
-        which neighbours drift slowly.
+        M is II (Omega + K). "stable" means that every neighbouring start stays next to the curve. "undecided" occurs
+        where `splitting` is zero. The answer is decided exactly. At rest and for Omega = -2 K the curve is that of the
+        flow that the integral F of `invariants` generates, along which neighbours drift slowly.
         """
         return self._of_all("stability", lambda exact: exact.stability)
 
@@ -135,8 +147,9 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
 
         Notes
         -----
-        The flow is that of H + (z/D) F/2. The value is [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, with P(z) = v^2 and
-        s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1 it is (1 + z/D)^2 times `Hyperbola.stability`.
+        The flow is that of H + (z/D) F/2, with the integrals H and F of `invariants` and D = I1 I2 I3. The value is
+        [4 b^2 P + s (P'^2 - 2 P P'')]/D^2, with b = |B'|, P(z) = v^2 and s = sum K_i^2/(z + D/I_i). For I1 = I2 = 1
+        it is (1 + z/D)^2 times `Hyperbola.stability`.
         """
         return finite(self._scalar("splitting"), "splitting")
 
@@ -218,6 +231,10 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         ------
         AtlasError
             For a time that is not finite or whose phases exceed 2^50.
+
+        Notes
+        -----
+        With M = II (Omega + K) and D = I1 I2 I3, H = (M, II^-1 M)/2 + (K, II K)/2 and F = M^2 - D (K, II^-1 K).
         """
         if t is None:
             constants = self._of_all(

@@ -229,8 +229,8 @@ class TopMotion(SymmetricMotion[SingleTop]):
         demagnetization : float
             Demagnetizing factor N along the axis of the ellipsoid.
         weight : (w2, w3)
-            m g l along the upward vertical, parallel to the field, for a body held at the distance l from its centre
-            of mass.
+            For a body held at the distance l from its centre of mass: vector of length m g l along the upward vertical,
+            in the body's axes at t = 0 as `field`, to which it is parallel.
 
         Returns
         -------
