@@ -15,14 +15,16 @@ class Finding:
 
     verdict         proved, refuted, undecided, definition, or supported, then with the count in `method`
     method          how it was decided, and `follows`: source from which the printed form was derived
-    corrected       TeX of the true form where the printed one is refuted, and `corrected_verdict` on that form
-    counterexample  values of the letters that break the printed form, and the values of its two sides there, by name
+    corrected       TeX of the true form where the printed one is refuted; `corrected_verdict` is the verdict on it
+    counterexample  texts by letter: values that break the printed form; also "relation", "left", "right" or "reason",
+                    see `atlas.book.blocks.counterexample.written`
     note            meaning of the verdict, where it needs a word
     modules         paths of modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
-    grade, slip     kind of slip, if it needs an erratum, and name of the entry that shares the slip, if one does
+    grade           kind of slip, such as misprint, if the entry needs an erratum
+    slip            name of the entry under which a shared slip is counted
     false           a false sentence near a claim in words, which the trial refutes
-    script          plain SymPy that shows it, or the line that says why there is none
-    said            phrases of its TeX that the trial does not read, with the lines in their place; empty if assumed
+    script          source of a SymPy program that proves or refutes the entry, or the line that says why there is none
+    said            by phrase of the entry's TeX that the trial cannot read, the line tried in its place, "" if supposed
     not_read        clauses of its assumptions that the trial does not hold against its model
     outside         a false domain beside that of the entry, and the reason for which nothing is proved there
     """

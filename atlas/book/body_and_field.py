@@ -35,7 +35,8 @@ GAUSSIAN_UNITS = {"kg": "g", "m": "cm", "C": "statC", "kg m$^2$": "g cm$^2$"}
 class Body(StrictStruct, frozen=True):
     """A body's record: the ratio I = I3/I2, or (I2, I3), or a shape with dimensions in metres and kilograms.
 
-    Exactly one of `ratio`, `inertia` and `shape`, a key of `SHAPES`, is given; a shape takes its mass and its own
+    Exactly one of `ratio`, `inertia` and `shape`, a key of `SHAPES`, is given; `inertia` may be in any unit, since
+    the motion depends on the ratio alone; a shape takes its mass and its own
     lengths: `radius`, `height`, `length`, or the semi-axes `equatorial` and `polar`. `charge` is in C; in a
     Gaussian field lengths are in cm, masses in g and charges in statC. `title` names the body in sentences.
     """
@@ -56,9 +57,10 @@ class Body(StrictStruct, frozen=True):
 class Field(StrictStruct, frozen=True):
     """A field's record: (B2, B3) of B' in 1/s, or the vector B with its system of units.
 
-    Exactly one of `prime` = (B2, B3) and `B` is given. `B` in T and `E` in V/m, or in Gaussian units, are vectors
-    (3,) in the laboratory, `axis` is the direction of the body's axis there, and `charge_to_mass` (None: that of
-    the body) turns B into B'. `title` names the field in sentences.
+    Exactly one of `prime` = (B2, B3) and `B` is given. `B` in T and `E` in V/m, or in G and statV/cm, are vectors
+    (3,) in the laboratory, and `axis` is the direction of the body's symmetry axis there at t = 0. `charge_to_mass` =
+    mu, in C/kg or statC/g (None: that of the body), turns B into B' = mu B/(2c), with c = 1 in SI. `title` names the
+    field in sentences.
     """
 
     title: str

@@ -143,7 +143,7 @@ def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
 def _is_steady(motion: Any, arguments: Mapping[str, Any]) -> bool:
     """Return whether a start by all three rates is an elementary motion whose omega3 follows from omega2 by (67).
 
-    `arguments` are the family's inputs by name; False where B2 = 0 or at the pole omega2 = -B2.
+    `arguments` are the family's inputs by name; False for other inputs, where B2 = 0, and at the pole omega2 = -B2.
     """
     if not {"ratio", "omega"} <= arguments.keys() or motion.kind != "precession":
         return False
@@ -195,8 +195,9 @@ def _pole(key: str, arguments: Mapping[str, Any]) -> str:
 def _frequency(place: int, family: Family, motion: Any, arguments: Mapping[str, Any]) -> Any:
     """Return a frequency of a motion on a torus in rad/time: f1, f2 or f3 for `place` 0, 1, 2.
 
-    Raises DomainError for a family without such frequencies, or without a field. `arguments` are the family's
-    inputs by name.
+    They are defined at `AsymmetricMotion.frequencies`: momentum and field in the body turn with f1 and f2, and the
+    rotation matrix about the field with f3 besides. Raises DomainError for a family without such frequencies, or
+    without a field. `arguments` are the family's inputs by name.
     """
     if not (family.quantity("frequencies") and any(arguments["field"])):
         raise DomainError(ONE_PERIOD)

@@ -48,15 +48,16 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
 
 
 def opposite(B: float, omega: float) -> float:
-    """Return -2 B - omega, the component of the paired motion's angular velocity, in the unit of both.
+    """Return -2 B - omega, a component of the angular velocity of the paired start, theorem-pair, in the unit of both.
 
-    It is computed from the shortest decimals of both and rounded to 15 digits.
+    `B` and `omega` are the components of B' and of the angular velocity along one axis. The result is computed from the
+    shortest decimals of both and rounded to 15 digits.
     """
     return float(f"{-2 * Decimal(repr(float(B))) - Decimal(repr(float(omega))):.15g}")
 
 
 def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
-    """Yield (words, request) of the same motion for a ball (I = 1) and for a disk or loop (I = 2), unless it is one.
+    """Yield (words, request) of the same motion for a sphere (I = 1) and for a disk or loop (I = 2), unless it is one.
 
     Nothing is yielded for a body of point masses.
     """

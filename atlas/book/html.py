@@ -199,8 +199,8 @@ def index(document: Document, pages: Mapping[str, str], texts: Sequence[str]) ->
 def sections(file: str, page: str, html: str) -> Iterator[tuple[str, str, str, str]]:
     """Yield (file, anchor, title, text) for the search: the HTML of one page split at its anchors.
 
-    `page` is the page's number and title, which end the titles; the text of an equation is `page`, its title its
-    number.
+    `page` is the page's number and title, which end the titles. For a displayed equation the title is "Equation" with
+    its number, and the text is `page`.
     """
     starts = list(_START.finditer(html))
     for start, end in pairwise(starts):

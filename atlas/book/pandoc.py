@@ -131,9 +131,9 @@ def _program() -> str:
 
 
 def _reason(message: str) -> str:
-    """Return the reason why pandoc refused a formula, a clause: "it breaks off", "unexpected ...
+    """Return the reason why pandoc refused a formula, as a clause.
 
-    At ...", "it is no TeX".
+    It is "it breaks off", "unexpected X at Y" with the first letters of both, or "it is no TeX".
     """
     matched = re.search(r"^(.*)\n( *)\^\nunexpected (.+)$", message, re.MULTILINE)
     if matched is None:

@@ -70,7 +70,7 @@ def _pictures_of_block(block: Figure, report: Report) -> Iterator[tuple[str, Pic
 
 
 def _parameters(block: Figure, recipe: Any, report: Report) -> Mapping[str, Any]:
-    """Return the recipe's parameters by name: those that the block's body and field give, below the block's own.
+    """Return the recipe's parameters by name: from the block's body and field, overridden by the block's own.
 
     Raises AtlasError for a body that the recipe does not take. `recipe` is None if it cannot be loaded. `report`
     has the bodies and fields that the block names.

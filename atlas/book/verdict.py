@@ -17,7 +17,10 @@ NEAR_BALL = 0.01
 
 
 def stands(ratio: float) -> str:
-    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" below 0.1 to "a disk or loop" at 2."""
+    """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" below 0.1 to "a disk or loop" at 2.
+
+    "a ball" stands at 1 exactly and "a disk or loop" at 2 exactly, "nearly a ball" within 0.01 of 1.
+    """
     if ratio == 1.0:
         return "a ball: every axis is like every other"
     if ratio == 2.0:

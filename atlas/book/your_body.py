@@ -94,7 +94,7 @@ def sign_of(request: Asked) -> str:
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
-    """Return parameters of the body's picture: {"is_ball": True}, or {"radius": m, "height": m}.
+    """Return parameters of the body's picture: {"is_ball": True} for a sphere, or {"radius": m, "height": m}.
 
     None for a spheroid, and without a shape.
     """

@@ -28,7 +28,7 @@ class Step(StrictStruct, frozen=True):
     """One step of a page that scrolls past a scene: title and text in Markdown, and the motion shown beside them.
 
     ``motion`` has values of sliders by name; where omega3 is left out, the start lies on the hyperbola (67).
-    ``panel`` is the one that is shown.
+    ``panel`` is the panel in space that is shown during this step.
     """
 
     title: str
@@ -44,7 +44,8 @@ class Explorer(StrictStruct, frozen=True, tag_field="kind", tag="explorer"):
     quadric, the ``body``; the ``frequencies`` over omega2, the phase ``portrait``, the ``rosette`` of a point, 40
     degrees from the axis, as seen along the field. With ``steps`` the page scrolls past one scene, where of the
     panels in space only the step's is seen; ``still`` is the id of the figure that stands there without script.
-    ``sliders`` are among I, angle (of the field with e2, in degrees), omega1, omega2, omega3, p and q; a parameter
+    ``sliders`` are among I, angle (of the field with e2, in degrees), omega1, omega2, omega3 (in units of 1/time), and
+    p and q: turns of the body about its axis, and of the axis about the field, after which a motion closes. A parameter
     without a slider keeps the register's start, and omega3 is that of the hyperbola. ``start`` sets the starts of
     some sliders by name, ``at`` the field (B2, B3); None is the register's.
     """
@@ -113,9 +114,9 @@ def view(block: Explorer, composer: Composer) -> ExplorerView:
 
 
 def sliders_of(B2: float, B3: float) -> dict[str, Slider]:
-    """Return by name every `Slider` that an explorer can have.
+    """Return by name every `Slider` that an explorer can have, for a field with the components B2 and B3.
 
-    That of the angle starts at atan2(B3, B2), in degrees.
+    The slider of the angle starts at atan2(B3, B2), in degrees.
     """
     defaults = {
         slider.name: slider for name in ("general", "elementary") for slider in sliders_of_family(FAMILIES[name])

@@ -19,7 +19,7 @@ class Figure(StrictStruct, frozen=True, tag_field="kind", tag="figure"):
 
     `recipe` is a name in figures/ or a file beside the report, `id` the name that ``@fig:ID`` cites (None: the figure's
     number). `body`, `bodies`, `field` and `sets` name the report's bodies, field and sets of parameters, which give
-    parameters to the recipe; `parameters`, values by name, go before them. `caption`, Markdown with TeX, replaces the
+    parameters to the recipe; `parameters`, values by name, override those. `caption`, Markdown with TeX, replaces the
     scene's; `width` is the width shown in millimetres, None for the scene's own.
     """
 

@@ -33,7 +33,7 @@ class Table(StrictStruct, frozen=True, tag_field="kind", tag="table"):
 
     `table` is a name in `atlas.book.tables`, `id` the name that ``@tab:ID`` cites (None: the table's number).
     `body`, `bodies`, `field` and `sets` name the report's bodies, field and sets of parameters; `parameters` are
-    the table's, values by name, and go before those of the sets. `caption`, Markdown with TeX, replaces the table's
+    the table's, values by name, and override those of the sets. `caption`, Markdown with TeX, replaces the table's
     own.
     """
 
@@ -144,9 +144,9 @@ class TableView:
 
     @property
     def flows(self) -> bool:
-        """Whether the table stands at its place in the text: any but a computed table with numbers of up to 24 rows.
+        """Whether the table stands at its place in the text: all but computed tables of at most 24 rows with numbers.
 
-        Tables that do not flow float to the head or foot of a page.
+        24 is MAX_UNBROKEN_ROWS. Tables that do not flow float to the head or foot of a page.
         """
         return self.tall or self.words or not self.name
 

@@ -317,7 +317,8 @@ def write_costs(path: Path, name: str, figures: Sequence[FigureBuild], times: Ma
 def rows_of_costs(path: Path) -> list[list[str]]:
     """Return a row for each figure of a file by `write_costs`: eight texts in the order of `HEADING`.
 
-    The row of a failed figure has "failed" in the second place and "" from the third on.
+    They are name, "drawn" or "cache", counts of points and faces, times of computing and drawing in ms, memory in MB,
+    and size in kB. The row of a failed figure has "failed" in the second place and "" from the third on.
     """
     return [
         [entry["scene"], "failed", *[""] * 6]

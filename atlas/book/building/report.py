@@ -86,12 +86,12 @@ def build_report(
 
     `progress` is called with steps done, their number, name of the next step; `formats` may leave out the pages or
     the PDF, which then stay as they are, or ask for `single`, NAME.html, one page with all its files; `style` is a
-    style sheet of Matplotlib for the figures, a file or a name, above that of the file; `jobs` workers draw them,
-    one a core when it is not given; `inputs` are texts by name, and where they differ from the defaults NAME ends
-    with a digest of their values. A report that is unchanged is not built again. A figure that fails leaves a
-    framed note in its place and an entry in `failures`. The pages are in their place before the PDF is set. Raises
-    AtlasError, in one sentence, for anything wrong with the file, and OSError when something can't be written; then
-    the files of the last report stay that were not yet replaced.
+    style sheet of Matplotlib for the figures, a file or a name, which replaces that of the report's file; `jobs`
+    workers draw them, one a core when it is not given; `inputs` are texts by name, and where they differ from the
+    defaults NAME ends with a digest of their values. A report that is unchanged is not built again. A figure that
+    fails leaves a framed note in its place and an entry in `failures`. The pages are in their place before the PDF
+    is set. Raises AtlasError, in one sentence, for anything wrong with the file, and OSError when something can't
+    be written; then the files of the last report stay that were not yet replaced.
     """
     file, formats = find(str(name)), [form for form in LANGUAGES if form in formats]
     cache = Cache(cache_folder(out))

@@ -30,7 +30,7 @@ YEAR = 31_557_600.0
 
 
 class SizeParameters(StrictStruct, frozen=True):
-    """Parameters of `sizes` and `radiation`: radii of balls in m, density in kg/m^3, and two fields.
+    """Parameters of `sizes` and `radiation`: radii of solid spheres in m, density in kg/m^3, and two fields.
 
     `surface_field` in V/m is the electric field that the surface bears, `magnet` the magnetic field in T.
     """
@@ -44,9 +44,9 @@ class SizeParameters(StrictStruct, frozen=True):
 def sizes(setup: SizeParameters) -> Data:
     """Return the table of balls with the largest charge that their surface bears, a row for each radius.
 
-    Its eight columns are r in m, e in C, e/e0, e/m0 in C/kg, Larmor's frequency b in 1/s, its period 2 pi/b in s,
-    the angle in rad of `off_the_field`, and the temperature I2 b^2/k_B in K. Raises AtlasError unless there are
-    radii and all parameters are positive.
+    The balls are solid spheres. The eight columns are r in m, e in C, e over the elementary charge, e/m0 in C/kg,
+    Larmor's frequency b in 1/s, its period 2 pi/b in s, the angle in rad of `off_the_field`, and the temperature
+    I2 b^2/k_B in K. Raises AtlasError unless there are radii and all parameters are positive.
     """
     _check(setup)
     rows = []
@@ -80,8 +80,8 @@ def sizes(setup: SizeParameters) -> Data:
 def radiation(setup: SizeParameters) -> Data:
     """Return the table of times, energy over power, in which the balls of `sizes` radiate their energy, in years.
 
-    A row has the radius in m, then the times for flight (electric dipole) and for rotation (magnetic dipole, electric
-    quadrupole). Raises AtlasError unless there are radii and all parameters are positive.
+    The balls are solid spheres. A row has the radius in m, then the times for flight (electric dipole) and for rotation
+    (magnetic dipole, electric quadrupole). Raises AtlasError unless there are radii and all parameters are positive.
     """
     _check(setup)
     rows = []
@@ -113,14 +113,15 @@ def radiation(setup: SizeParameters) -> Data:
 
 
 def moment_of_inertia(mass: float, radius: float) -> float:
-    """Return the moment of inertia of a solid ball, 0.4 mass radius^2, in kg m^2 for kg and m."""
+    """Return the moment of inertia of a solid sphere, 0.4 mass radius^2, in kg m^2 for kg and m."""
     return 0.4 * mass * radius * radius
 
 
 def off_the_field(b: float) -> float:
     """Return the angle in [0, pi] rad between m and B in the elementary motion with k = 2 pi 1/s, (67).
 
-    `b` is Larmor's frequency in 1/s; the body has I3/I2 = 1.5, the field B3/B2 = 2, and m/I2 = (0, omega2, I omega3).
+    m is the angular momentum and k the rate of precession about B. `b` is Larmor's frequency |B'| in 1/s; the body has
+    I = I3/I2 = 1.5, the field B3/B2 = 2, and m/I2 = (0, omega2, I omega3).
     """
     unit = b / hypot(1.0, TILT)
     B2, B3 = unit, TILT * unit
@@ -179,8 +180,8 @@ class DiamagnetismParameters(StrictStruct, frozen=True):
 def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, SymmetricBody, float]:
     """Return (title of the body, body, coefficient of nu^2 in the energy of its induced moment, in J).
 
-    nu is the cosine between axis and field, `setup` the material. Raises AtlasError for a body without shape or
-    mass, and for a field without a charge-to-mass ratio.
+    nu is the cosine between axis and field, `setup` the material. The volume is mass over density. Raises
+    AtlasError for a body without shape or mass, and for a field without a charge-to-mass ratio.
     """
     record, body = case.body_record, case.body
     if record is None or body is None or case.physical is None or record.mass is None or record.shape is None:
@@ -192,9 +193,9 @@ def magnetised(case: BodyAndField, setup: DiamagnetismParameters) -> tuple[str, 
 def diamagnetism(request: Request, setup: DiamagnetismParameters) -> Data:
     """Return the table of the coefficients of nu^2 in the energy of each body, in J, nu being cos theta.
 
-    A row has the body's title, the coefficient by its charge, (I3 - I2) b^2/2, and that by its induced moment. Raises
-    AtlasError for a density that is not positive, for a body without shape or mass, and for a field without a
-    charge-to-mass ratio.
+    theta is the angle between axis and field. A row has the body's title, the coefficient by its charge,
+    (I3 - I2) b^2/2 with Larmor's frequency b = |B'|, and that by its induced moment. Raises AtlasError for a density
+    that is not positive, for a body without shape or mass, and for a field without a charge-to-mass ratio.
     """
     if setup.density <= 0:
         raise AtlasError("this table takes a positive density.")
@@ -239,8 +240,10 @@ class CoatParameters(StrictStruct, frozen=True):
 def coats(setup: CoatParameters) -> Data:
     """Return the table of gyromagnetic factors, in units of e/m, of bodies whose charge is not spread like the mass.
 
-    A row has the name, I = I3/I2, the factors across and along the axis, and kappa/b and A/b^2 of
-    theorem-every-top, all pure numbers.
+    A row has the name, I = I3/I2, the factors g across and along the axis, and two pure numbers, coefficients of
+    the top of theorem-every-top in units of Larmor's frequency b: kappa/b = g_across - g_along of its gyroscopic
+    term, and A/b^2 of nu^2/2 in its potential, nu the cosine between axis and field. With one charge-to-mass ratio
+    throughout they are 0 and I - 1.
     """
     rows: list[tuple[str | Number, ...]] = []
     for coat in setup.coats:

@@ -18,9 +18,10 @@ PRINTED_DIGITS = 12
 def closed(request: Request, item: Thing) -> Data:
     """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, each with its closed motion.
 
-    phi/k is that of an elementary motion (72); any other motion has a row (p turns, q nutations, time, miss) for
-    each fraction. Raises DomainError for a motion that does not turn, and where no fraction is told from the number
-    itself. `item` is the object of the request.
+    For an elementary motion phi/k is the rate of proper rotation over that of precession (72). Any other motion has a
+    row (p turns of the axis about the field, q nutations, time, turns per nutation less p/q) for each fraction. Raises
+    DomainError for k = 0, for a free body, and where the number is an integer within rounding. `item` is the object of
+    the request.
     """
     from flint import arb, fmpq
 
@@ -58,8 +59,8 @@ def closed(request: Request, item: Thing) -> Data:
 def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
     """Return the table of closed elementary motions with phi/k = p/q, a row for each fraction that has one.
 
-    `value` is the ball phi/k, `fractions` are pairs (p, q), `misses` the differences phi/k - p/q as `Number`s. Raises
-    DomainError if no fraction has a motion.
+    `value` is phi/k, an interval (ball), phi the rate of proper rotation and k that of precession; `fractions` are
+    pairs (p, q), `misses` the differences phi/k - p/q as `Number`s. Raises DomainError if no fraction has a motion.
     """
     from atlas.motions.elementary.closed import ClosedMotion
 

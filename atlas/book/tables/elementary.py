@@ -58,7 +58,9 @@ def titled(request: Request) -> str:
 def quadric(request: Request) -> Data:
     """Return the table of the quadric (51) to (57), a column for each body: I, kind, angles, a2, a3, semi-axes, centre.
 
-    Angles are in rad, semi-axes and centre in 1/s. With the field along or across the axis there are I and kind alone.
+    The angles, in rad, are beta, from e2 to I^-1 B', and beta/2 + pi/4, from e2 to the principal axis of omega'_2.
+    a2 and a3 are the coefficients of (54), pure numbers. Semi-axes, of three directions, and centre (omega2,
+    omega3) are in 1/s. With the field along or across the axis there are I and kind alone.
     """
     columns, rows = side_by_side(request, [of_quadric(case, request.digits) for case in request.cases])
     return Data(columns, rows, f"The quadric of initial data of {titled(request)}, @(51), in canonical form.")
@@ -67,7 +69,7 @@ def quadric(request: Request) -> Data:
 def of_quadric(case: BodyAndField, digits: int) -> list[Quantity]:
     """Return the quantities of the quadric of a body in a field, see `quadric`, to `digits` digits.
 
-    Only I and kind for a field along or across the axis; a dash for each semi-axis of a ball.
+    Only I and kind for a field along or across the axis; a dash for each semi-axis if I = 1, as for a sphere.
     """
     from flint import arb
 
@@ -101,10 +103,11 @@ class PointsParameters(StrictStruct, frozen=True):
 
 
 class Point(NamedTuple):
-    """A point of the hyperbola (67): its names, and whether the motion is stable.
+    """A point of the hyperbola (67): its names, and whether the motion is stable against small nutations.
 
-    `names` is a text such as "at rest", "" for a value of omega2 that was asked for. `values` are omega2, omega3,
-    k, phi and nu_n^2 as balls, in 1/s and 1/s^2.
+    `names` is a text such as "at rest", "" for a value of omega2 that was asked for. `values` are five balls:
+    omega2, omega3, the rates k of precession and phi of proper rotation in 1/s, and the square of the nutation
+    frequency nu_n in 1/s^2; omega2 is a `Number` as given if a float holds it.
     """
 
     names: str
@@ -115,8 +118,9 @@ class Point(NamedTuple):
 def points(request: Request, setup: PointsParameters) -> Data:
     """Return the table of points (omega2, omega3) of (67), with k, phi of (72) and the nutation frequency squared.
 
-    Rates are in 1/s, the square in 1/s^2; the last column is "stable" or "unstable". With several bodies the first
-    column has each body's title, beside its first point. Raises AtlasError for B2 = 0.
+    k is the rate of precession, phi that of proper rotation. Rates are in 1/s, the square in 1/s^2, negative where
+    small nutations grow; the last column is "stable" or "unstable". With several bodies the first column has each
+    body's title, beside its first point. Raises AtlasError for B2 = 0.
     """
     found = [of_points(case, setup, request.digits) for case in request.cases]
     columns = [
@@ -153,10 +157,11 @@ def points(request: Request, setup: PointsParameters) -> Data:
 
 
 def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[Point]:
-    """Return the named and the given points of the hyperbola (67) of a body, by rising omega2, but for the pole.
+    """Return the named and the given points of the hyperbola (67) of a body, by rising omega2, without the pole.
 
-    Equal points are one with several names. Raises AtlasError if there is none, as with B2 = 0. `setup` has the
-    given omega2; values have `digits` proven digits.
+    The named points are rest, phi = 0 and omega3 = 0; the pole is omega2 = -B2. Equal points are one with several
+    names. Raises AtlasError for B2 = 0, where the curve is a line. `setup` has the given omega2; values have
+    `digits` proven digits.
     """
     from atlas.arithmetic.certified_inputs import rational
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
@@ -248,7 +253,8 @@ def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
 def samples(request: Request, setup: Samples) -> Data:
     """Return the table, a row for each of the `times`, of Omega(t), (73), and the third axis R_3(t), (84).
 
-    A row has t in s, three components in the body in 1/s, and three in the laboratory. Only the first body is shown.
+    A row has t in s, the three components of the angular velocity Omega along the body's axes in 1/s, and the three of
+    the symmetry axis, a unit vector, in the laboratory. Only the first body is shown.
     """
     from atlas.motions.elementary.certified import ElementaryMotion
 

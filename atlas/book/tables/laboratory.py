@@ -26,9 +26,10 @@ RECORDED = {"found": ".0f", "within": ".1f", "seconds": ".2f"}
 
 
 class Dipole(StrictStruct, frozen=True):
-    """A ball: radius in m, density in kg/m^3, dipole in e um, field in V/m, rates of spin about the dipole in Hz.
+    """A solid sphere: radius in m, density in kg/m^3, dipole in e um, field in V/m, spins about the dipole in Hz.
 
-    The dipole starts `inclination` rad off the field, with no angular velocity but the spin.
+    `dipole` is in units of the elementary charge times 1 um, `spins` in turns a second. The dipole starts `inclination`
+    rad off the field, with no angular velocity but the spin.
     """
 
     radius: float
@@ -56,7 +57,9 @@ class Dipole(StrictStruct, frozen=True):
 def levitated(setup: Dipole) -> Data:
     """Return the table of nutation and precession of a ball with a dipole, a row for each spin, in Hz.
 
-    A row has the spin, the frequency of nutation and that of small librations, the precession and that of a fast spin.
+    The ball is the solid sphere of `Dipole`. All columns are in turns a second: the spin, the frequency of nutation and
+    that of small librations without spin, the precession, negative if it goes round the field against the spin, and
+    that of a fast spin.
     """
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
@@ -85,7 +88,10 @@ def levitated(setup: Dipole) -> Data:
 
 
 def _precession(motion: TopMotion) -> float:
-    """Return the rate of precession in the axis' spectrum, in rad/s; for a pendulum half that of nutation."""
+    """Return the rate of precession in the spectrum of the axis, in rad/s.
+
+    For a pendulum, which has no spin, it is half the rate of nutation: half a turn about the field in each nod.
+    """
     spectrum = motion.spectrum("axis")
     return float(spectrum.rates[spectrum.names.index("precession")])
 
@@ -102,9 +108,10 @@ class Lines(Dipole, frozen=True):
 def lines(setup: Lines) -> Data:
     """Return the table of spectral lines of the axis for each spin, with combinations and largest displacements.
 
-    A row has spin and line in Hz, the combination of frequencies in words, and the displacement across and along
-    the field, of an axis of length 1. A line a exp(i f t) and its conjugate at -f draw an ellipse, whose larger
-    semi-axis is twice the largest singular value of (Re a, Im a); the mean has no conjugate.
+    A row has spin and line in turns a second, the combination of frequencies in words, such as "+1 nutation", and the
+    displacement across and along the field, of an axis of length 1. A line a exp(i f t), f in rad/s, and its conjugate
+    at -f draw an ellipse, whose larger semi-axis is twice the largest singular value of (Re a, Im a); the mean has no
+    conjugate. Lines with f < 0 have no row.
     """
     rows: list[tuple[str | Number, ...]] = []
     for spin in setup.spins:
@@ -148,8 +155,9 @@ class Watch(Dipole, frozen=True):
 def inferred(setup: Watch) -> Data:
     """Return the table of standard deviations of parameters fitted to the axis alone, a column for each spin.
 
-    The rows are d E/I relative to itself, inclination in rad, I3/I2, spin in Hz, and spin in Hz with I3 known. They
-    are of first order, from the derivatives of the motion by its parameters at random times.
+    The rows are d E/I2 relative to itself, d the dipole and E the field, inclination in rad, I3/I2, spin in Hz, and
+    spin in Hz with I3 known. They are of first order, from the derivatives of the motion by its parameters at
+    random times.
     """
     names = (r"$dE/I$, in parts of itself", "inclination (rad)", "$I_3/I_2$", "spin (Hz)", "spin (Hz), $I_3$ known")
     columns = []
@@ -191,8 +199,8 @@ class Design(StrictStruct, frozen=True):
     """Spheroids of some equatorial radii in m, of a material, charged to a field at their surface, in a magnet (T).
 
     `aspect` is polar over equatorial radius, `density` in kg/m^3, `susceptibility` the volume's in SI,
-    `surface_field` in V/m; they spin `spin` times as fast as Larmor's turn about their own axis, which is
-    `inclination` rad off the field.
+    `surface_field` in V/m. In Larmor's frame they spin about their own axis at `spin` times Larmor's frequency; the
+    axis is `inclination` rad off the field.
     """
 
     radii: tuple[float, ...]
@@ -208,10 +216,12 @@ class Design(StrictStruct, frozen=True):
 def beyond_larmor(setup: Design) -> Data:
     """Return the table of precession beyond Larmor's rate, in Hz, by charge, by magnetisation and by both.
 
-    A row for each radius in m has Larmor's frequency, these three, both less magnetism, the quotient of the
-    potentials, and two disturbances: an offset in m and a pressure in Pa. All motions have the same momentum in
-    Larmor's frame, that of the spin about the axis. Rates do not add: the effect of the charge is the rate by both
-    less that by magnetisation alone.
+    A row for each radius in m has Larmor's frequency b/2 pi and the mean precession beyond it by the charge, by
+    magnetisation, by both, and by both less that by magnetisation, all in turns a second; the potential by
+    magnetisation over that by the charge; and two disturbances as large as the charge's effect: an offset of the
+    centre of charge in m, by its weight, and a pressure of the gas in Pa, by its drag. All motions have the same
+    momentum in Larmor's frame, that of the spin about the axis. Rates do not add: the effect of the charge is the
+    rate by both less that by magnetisation alone.
     """
     moment_along = demagnetization(setup.aspect)
     rows: list[tuple[str | Number, ...]] = []

@@ -73,8 +73,9 @@ class BallParameters(StrictStruct, frozen=True):
 def ball(request: Request, setup: BallParameters) -> Data:
     """Return the table of alpha, gamma, k_hat of a ball that starts with (0, omega2, omega3) in a field along e3.
 
-    alpha is Larmor's frequency, gamma the rate of the turn about the unit vector k_hat = (0, k2, k3), both in 1/s,
-    (29). Raises AtlasError for alpha = 0.
+    The ball is a body with three equal moments. alpha is Larmor's frequency, gamma the rate of the turn about the unit
+    vector k_hat = (0, k2, k3), both in 1/s, (29). The columns are name, symbol, value and unit. Raises AtlasError for
+    alpha = 0.
     """
     from atlas.motions.elementary.certified_ball import BallMotion
 
@@ -100,8 +101,8 @@ def ball(request: Request, setup: BallParameters) -> Data:
 class FlightParameters(StrictStruct, frozen=True):
     """Parameters of the table `flight`: omega2 of the elementary motion in 1/s, times in s, and three vectors.
 
-    `point` is the point of the body at t = 0 from its centre of mass, `position` and `velocity` are those of the
-    centre, all in the laboratory, in the field's units.
+    `point` is the vector from the body's centre of mass to the point at t = 0, `position` and `velocity` are those of
+    the centre at t = 0, all in the laboratory, in the field's units.
     """
 
     omega2: float
@@ -114,8 +115,9 @@ class FlightParameters(StrictStruct, frozen=True):
 def flight(request: Request, setup: FlightParameters) -> Data:
     """Return the table of positions y_0(t), y_N(t) = y_0(t) + R(t) x_N(0) at the `times`, in figure Lssc's frame.
 
-    y_0 is the body's centre of mass and x_N(0) its `point`. A row has t in s and six components in the laboratory,
-    in the field's unit of length. Raises AtlasError for a field that is not given as B.
+    That is the laboratory frame with e3 along the body's axis at t = 0 and B in the plane of e2 and e3. y_0 is the
+    body's centre of mass and x_N(0) its `point`. A row has t in s, three components of y_0 and three of y_N, in the
+    field's unit of length. Raises AtlasError for a field that is not given as B.
     """
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.particle.certified import Flight

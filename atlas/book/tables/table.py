@@ -111,7 +111,10 @@ def quantity(value: Any, digits: int) -> Number:
 
 
 def _power(value: Any) -> int | None:
-    """Return the power of ten of a number's first digit, None for an input, for zero, and where no digit is proven."""
+    """Return the power of ten of a number's first digit, None for zero, and where no digit is proven.
+
+    None also for a `Number`, whose digits are fixed already.
+    """
     if isinstance(value, Number) or value == 0:
         return None
     digit = _number(value, 1, "scientific")

@@ -40,7 +40,9 @@ class TopsParameters(StrictStruct, frozen=True):
 class Loop(StrictStruct, frozen=True):
     """A loop at one M3, the momentum about the axis, round the value `p` of a top's unstable spin, or round both spins.
 
-    `ratio` is I3/I2; coupling, linear and quadratic are those of `TopMotion`, in units of I2 and of one time.
+    The loop is in the plane of the momentum p along the field and the energy g; `p` is M3 for the spin along the field,
+    -M3 for that against it, so that both have p = 0 for M3 = 0. `ratio` is I3/I2; coupling, linear and quadratic are
+    those of `TopMotion`, in units of I2 and of one time.
     """
 
     name: str
@@ -62,7 +64,9 @@ class MonodromyParameters(StrictStruct, frozen=True):
 def tops(request: Request, setup: TopsParameters) -> Data:
     """Return the table of several tops, a row each: period of nutation, and angles of precession and spin in a period.
 
-    The period is in units of time, the angles are in rad and whole, not modulo 2 pi.
+    Before these a row has the name and the parameters of the top, see `Top`. Precession is about the field n, spin
+    about the body's axis. The period is in units of time, that of small nutations where nu is constant; the angles
+    are in rad and whole, not modulo 2 pi.
     """
     from atlas.motions.nutation.certified_top import TopMotion
 
@@ -104,8 +108,10 @@ def _of_top(numbers: tuple[float, ...]) -> str:
 def monodromy(setup: MonodromyParameters) -> Data:
     """Return the table of the monodromy matrices of loops round unstable spins, a row per loop, theorem-residue.
 
-    A row has I, M3 and p, the least and the largest period, the integer matrix (3, 3), the largest step of an angle
-    over 2 pi between two points, and the largest radius of the balls.
+    A row has the name, I, M3 and p, the least and the largest period of nutation on the loop, and the integer matrix
+    (3, 3), whose rows are the periods g1 (a turn about the field), g2 (about the axis) and g3 (a nutation) after the
+    loop in terms of those before. Last are the largest step of an angle over 2 pi between two points, and the largest
+    radius of the balls that enclose these numbers. See `Loop` for I, M3 and p.
     """
     from atlas.maps.monodromy import around, on_loop
     from atlas.maps.wells import Wells
@@ -145,8 +151,8 @@ Triple = tuple[float, float, float]
 class Family(StrictStruct, frozen=True):
     """Parameters of the table `elliptic`: a body in a field, and points (z, branch) of elliptic motions.
 
-    `inertia` (I1, I2, I3) and `field` B' in principal axes are in one unit of inertia and one of 1/time; branch is
-    1 or -1.
+    `inertia` (I1, I2, I3) and `field` B' in principal axes are in one unit of inertia and one of 1/time. z, in
+    inertia^2, is the parameter of the family of motions, see `EllipticMotion`; branch is 1 or -1, the sign of v.
     """
 
     inertia: Triple
@@ -155,7 +161,10 @@ class Family(StrictStruct, frozen=True):
 
 
 class Motion(StrictStruct, frozen=True):
-    """A body in a field and its initial angular velocity: (I1, I2, I3), B' and omega in principal axes, in 1/time."""
+    """A body in a field and its initial angular velocity: (I1, I2, I3), B' and omega in principal axes, in 1/time.
+
+    The moments are in any unit.
+    """
 
     inertia: Triple
     field: Triple
@@ -171,8 +180,8 @@ class Samples(Motion, frozen=True):
 class Observed(StrictStruct, frozen=True):
     """Parameters of `identified`: bodies by their moments, a field, an initial angular velocity, and z.
 
-    Each of the `bodies` is (I1, I2, I3); `field` and `omega` are in principal axes, in 1/time; z is the place of each
-    body's elliptic motion.
+    Each of the `bodies` is (I1, I2, I3); `field` and `omega` are in principal axes, in 1/time; z is the parameter of
+    each body's elliptic motion, see `EllipticMotion`, on the branch v > 0.
     """
 
     bodies: tuple[Triple, ...]
@@ -184,7 +193,8 @@ class Observed(StrictStruct, frozen=True):
 class Momenta(StrictStruct, frozen=True):
     """Parameters of `critical`: a body (I1, I2, I3) in a field of magnitude b, and values p of the momentum.
 
-    p = (M, K)/b with M = I Omega + K the momentum and K the field in the body: the momentum along the field.
+    p = (M, K)/b is the component along the field of the momentum M = I (Omega + K), with the tensor of inertia I, the
+    angular velocity Omega and K = B' in the body's frame.
     """
 
     inertia: Triple
@@ -195,8 +205,9 @@ class Momenta(StrictStruct, frozen=True):
 def critical(request: Request, setup: Momenta) -> Data:
     """Return the table of critical values of H and F, a row per momentum and piece of curve, theorem-critical.
 
-    H is the energy integral and F the second integral. A row has p, the name of the piece, the values of z, or of
-    F, at its ends, and "stable", "saddle" or the kind of a spin; in doubles to four digits.
+    H is the energy integral and F Clebsch's second integral. A row has p, the name of the piece, its two ends, and
+    "stable", "saddle" or the kind of a spin. The ends are values of the parameter z for elliptic motions, of F for
+    pendulums; a spin has its F alone. All are doubles to four digits.
     """
     from atlas.maps.bifurcation import Bifurcation
 
@@ -232,7 +243,7 @@ def identified(request: Request, setup: Observed) -> Data:
     """Return the table of the number of combinations of moments and field that a motion leaves open, a row per motion.
 
     They are counted in the equations of theorem-identifiable and in the derivatives of a fit to its attitudes at
-    the same times; each with the least singular value that is not open, over the largest. Each body has two
+    the same times; each with the least singular value above the threshold, over the largest. Each body has two
     motions: that from `omega` and that of its elliptic family.
     """
     del request  # doubles of two digits
@@ -295,9 +306,9 @@ def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
 def elliptic(request: Request, setup: Family) -> Data:
     """Return the table of elliptic motions of one body in one field, one a row, theorem-elliptic.
 
-    A row has the place (z, v) of the motion on its curve, omega (3,) in 1/time, C/D^2, whose sign decides on
-    stability, the period T of the field K in the body, the angle in rad by which the body turns about the field in
-    T, and "stable" or another word.
+    A row has the place (z, v) of the motion on the curve of its family, see `EllipticMotion`, omega (3,) in 1/time, the
+    number C/D^2, whose sign decides on stability, the period T of the field K in the body, the angle in rad by which
+    the body turns about the field in T, and "stable" or another word.
     """
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 
@@ -320,8 +331,9 @@ def elliptic(request: Request, setup: Family) -> Data:
 def periods(request: Request, setup: Motion) -> Data:
     """Return the table of two pairs of times after which M and K return, with the angle about the field, certified.
 
-    M is the momentum and K the field, both in the body. A row has the times T_H and T_F of the flows of H and F/2,
-    in units of time, and the angle in rad in Larmor's frame.
+    M is the momentum and K the field B', both in the body. H is the energy and F Clebsch's integral: to follow the flow
+    of H for the time T_H and that of F/2 for T_F brings M and K back. The two rows are a basis of these pairs: T_H, in
+    units of time, T_F, and the angle in rad by which the body has turned about the field, in Larmor's frame.
     """
     from flint import fmpq
 
@@ -344,7 +356,10 @@ def periods(request: Request, setup: Motion) -> Data:
 
 
 def asymmetric(request: Request, setup: Samples) -> Data:
-    """Return the table of the body's third axis in the laboratory and of Omega3 in 1/time, a row for each time."""
+    """Return the table of the body's third axis in the laboratory and of Omega3 in 1/time, a row for each time.
+
+    Omega3 is the component of the angular velocity along that axis.
+    """
     from atlas.motions.torus.certified import AsymmetricMotion
 
     motion = AsymmetricMotion(setup.inertia, setup.field, setup.omega)
