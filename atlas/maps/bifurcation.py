@@ -239,7 +239,7 @@ class Bifurcation:
         """
         z = self._cusps[(self._cusps > start) & (self._cusps < stop)]
         P, slope, x = self._cubic(z)
-        return z[branch * self.c * (slope * slope - 4 * P * x.sum(-1)) > 0].tolist()
+        return [float(x) for x in z[branch * self.c * (slope * slope - 4 * P * x.sum(-1)) > 0]]
 
     @property
     def rest(self) -> FloatArray | None:
