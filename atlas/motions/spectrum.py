@@ -202,7 +202,7 @@ def _power(amplitudes: Array, unit: float = 1.0) -> FloatArray:
 
 
 def _size(amplitudes: Array) -> float:
-    """Return the power of two next to the largest amplitude; squares of amplitudes over it are floats."""
+    """Return the largest power of two up to the largest amplitude; squares of amplitudes over it are floats."""
     return float(np.ldexp(1.0, np.frexp(abs(amplitudes).max())[1] - 1))
 
 

@@ -48,7 +48,10 @@ class TurningPoint:
         return acb.elliptic_rf(*(self._above(u, i) for i in self.other_roots)).real
 
     def imaginary_time(self, u: arb) -> arb:
-        """Return y > 0 with u(i y) = ``u``, a ball in time, for a value beyond the interval in which u moves."""
+        """Return y > 0 with u(i y) = ``u``, a ball in time, for a value beyond the interval in which u moves.
+
+        i y is the time since the turning point.
+        """
         return acb.elliptic_rf(*(-self._above(u, i) for i in self.other_roots)).real
 
     @cached_property

@@ -154,7 +154,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         body : SymmetricBody
             Body with moments about its centre of mass.
         gravity : float
-            Acceleration g >= 0, in the units of the moments.
+            Acceleration g >= 0, in length/time^2, in units that fit those of the moments, mass length^2.
         length : float
             Distance l from the fixed point to the centre of mass, along the axis.
         direction : (n2, n3), array_like
@@ -211,7 +211,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         charges : ChargeMoments
             Second moments J2, J3 of the charge.
         field : (B2, B3), array_like
-            Magnetic field B itself in the body's axes at t = 0, in T or G.
+            Magnetic field B itself in the body's axes at t = 0, in T or G; no `Field`, which holds B'.
         omega : (omega1, omega2, omega3), array_like
             Initial angular velocity, in rad/time.
         c : float

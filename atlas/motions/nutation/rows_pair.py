@@ -94,7 +94,7 @@ class SpherePair:
 
     @cached_property
     def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """(Sum of Gauss's complete integrals of the third kind, exp of the depths |y| of the zeros), each (2, m)."""
+        """(Gauss's series of complete integrals of the third kind, exp of the depths |y| of the zeros), each (2, m)."""
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
         top = m.levels[0]
@@ -124,8 +124,7 @@ class SpherePair:
     def rates(self) -> DoubleDouble:
         """The frequencies l of alpha and beta, see `Constants`, and M = pi/T, (3, m), in rad/time of the scaled unit.
 
-        Of a solid ball (I = 1) that starts at a turning point angle and M cancel, and a sum that is zero has no
-        relative error.
+        Of a solid ball (I = 1) that starts at a turning point angle and M may cancel to zero; `rel` is then inf.
         """
         M, own_rates = self.means.rate, self.angles.scaled(-1)
         pair = self.sphere.frames + own_rates - signed(M, self.zeros.sense)
