@@ -236,9 +236,10 @@ def given_tensor(options: Mapping[str, Any]) -> Any:
 
 
 def tensor_or_moments(options: Mapping[str, Any]) -> Any:
-    """Return six numbers I11 I22 I33 I12 I13 I23, of --tensor or of --points; of another body the three moments.
+    """Return six numbers I11 I22 I33 I12 I13 I23, of --tensor or of --points; else three moments.
 
-    `options` are the command's, by name. Raises click.UsageError unless the body is given once.
+    For any other body they are (I1, I2, I3), see `chosen_moments`. `options` are the command's, by name. Raises
+    click.UsageError unless the body is given once.
     """
     if options["tensor"] is not None:
         one_of(options, "body", (*BODY, "tensor"))
@@ -247,9 +248,10 @@ def tensor_or_moments(options: Mapping[str, Any]) -> Any:
 
 
 def given_attitude(options: Mapping[str, Any]) -> Any:
-    """Return R(0), (3, 3), from --attitude X Y Z W, or None. Raises AtlasError for a quaternion not of unit length.
+    """Return the `Attitude` R(0) of --attitude X Y Z W, scalar last, or None without the option.
 
-    `options` are the command's, by name.
+    R(0) takes components along the body's axes to those in the laboratory. `options` are the command's, by name. Raises
+    AtlasError unless the quaternion's length is 1 to 1e-3; a length off by more than rounding is told as a warning.
     """
     if options.get("attitude") is None:
         return None
@@ -353,10 +355,10 @@ def units_of(options: Mapping[str, Any]) -> dict[str, str]:
 
 
 def charge_to_mass_of(options: Mapping[str, Any], needs: str = "--magnetic") -> Fraction:
-    """Return mu, not rounded, from --mu, --mass and --charge, or --points.
+    """Return the charge-to-mass ratio mu, not rounded, from --mu, --mass and --charge, or --points.
 
-    `options` are the command's, by name; `needs` names the option that requires mu, for the message. Raises
-    click.UsageError where none of them or several are given.
+    It is in C/kg in SI, in statC/g in Gaussian units. `options` are the command's, by name; `needs` names the
+    option that requires mu, for the message. Raises click.UsageError where none of them or several are given.
     """
     from atlas.arithmetic.inputs import finite
     from atlas.bodies.units import charge_to_mass
@@ -390,7 +392,8 @@ def _charge_and_mass(options: Mapping[str, Any], needs: str) -> tuple[float | Fr
 def chosen_field(options: Mapping[str, Any]) -> tuple[float | Fraction, ...]:
     """Return (B2, B3) or (B1, B2, B3) of B' in 1/time, from --field, or from --magnetic and the charge-to-mass ratio.
 
-    A product that is no float is a Fraction, and so not rounded.
+    --field is B' itself; --magnetic is B, from which B' = mu B/(2c). There are as many components as were typed;
+    they are along the body's axes at t = 0. A product that is no float is a Fraction, and so not rounded.
 
     Raises click.UsageError when neither or both are given, or an option of the one stands beside the other.
     `options` are the command's, by name.
@@ -442,8 +445,9 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
 
 
 def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
-    """Return (largest speed of a charge, its time) among t = 0 and the times of --times, in the typed units.
+    """Return (largest speed of a charge, its time) among t = 0 and the times of --times.
 
+    The speed is in the unit of --velocity, or m/s if that was typed with a unit; the time in that of --times, or s.
     Gyration is left out: the speed is that of the initial velocity and of the acceleration by E along B, or by E
     without B. `options` are the command's, by name.
     """
@@ -458,10 +462,10 @@ def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
 
 
 def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
-    """Return the initial angular velocity, three numbers in 1/time, from --omega, or from --spin as (0, 0, W3).
+    """Return the initial angular velocity, three numbers in rad/time, from --omega, or from --spin as (0, 0, W3).
 
-    None if neither is given and it is not `needed`; click.UsageError for both, and for none if `needed`. `options`
-    are the command's, by name.
+    The numbers are components along the body's axes. None if neither is given and it is not `needed`; click.UsageError
+    for both, and for none if `needed`. `options` are the command's, by name.
     """
     omega, spin = options["omega"], options["spin"]
     if needed or spin is not None:

@@ -391,8 +391,8 @@ class Question:
 def later(times: Sequence[float], recorded_at: Callable[[Sequence[float]], Any]) -> Iterator[dict[str, Any]]:
     """Yield the records of the times after the first 200, `AT_ONCE`, one for each time.
 
-    `recorded_at` returns the list of those of a block of times, so that a table prints while the next block is
-    computed.
+    `recorded_at` returns a list of the records for a block of at most 200 times, so that a table prints while the next
+    block is computed.
     """
     for start in range(AT_ONCE, len(times), AT_ONCE):
         yield from recorded_at(times[start : start + AT_ONCE])
@@ -580,8 +580,8 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
 def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Sequence[Sampled]) -> dict[str, Any]:
     """Return the quantities of a motion in doubles by name, and under "samples" a record for each of the times.
 
-    `sampled` are the functions of time. In given axes m is that of the body, not over I2 as in tables. `motion` is
-    the object of `family`.
+    `sampled` are the functions of time. A motion in given axes returns the momentum m itself: the record has m/I2, in
+    1/time, where the family's unit is that. `motion` is the object of `family`.
     """
     columns = {s.name: along(s.method_of(motion), times) for s in sampled}
     placed = getattr(motion, "is_placed", False)
@@ -637,7 +637,8 @@ def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
 def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
     """Yield the arguments of a family's classes in their order, from the command's options by name.
 
-    They are doubles as typed, with --decimal fractions. Raises click.UsageError and DomainError for faulty options.
+    Numbers are doubles, or exact fractions with --decimal. A top given by --heavy or --magnetic yields its computed
+    coefficients. Raises click.UsageError and DomainError for faulty options, when the arguments are taken.
     """
     if family.takes("coupling"):
         if given_otherwise(options):
@@ -651,7 +652,7 @@ def values_of(family: Family, options: dict[str, Any]) -> Iterator[Any]:
 def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
     """Return the argument of a family's class for its parameter `p`, from the command's options by name.
 
-    Numbers are doubles as typed, with --decimal fractions; None for an option that may be missing.
+    Numbers are doubles, or exact fractions with --decimal; None for an option that may be missing.
     """
     typed = body.as_typed(options)
     if p.name in OF_BODY and (not p.option or of_any_body(family)):
@@ -759,7 +760,9 @@ def _lines(q: Quantity, texts: Any, case: str, units: dict[str, str]) -> Iterato
 def _in_hertz(family: Family, texts: dict[str, Any], options: dict[str, Any]) -> Iterator[Line]:
     """Yield lines of the rates in hertz and of Larmor's frequency, rounded to six digits, if units are known.
 
-    `texts` are the quantities by name; those that are no number are left out. `options` are the command's, by name.
+    The lines of rates, in rad/s, have them divided by 2 pi; Larmor's frequency |B'| has a line in 1/s and one in
+    Hz, only with --magnetic. `texts` are the quantities by name; those that are no number are left out. `options`
+    are the command's, by name.
     """
     if not _units(family, options):
         return

@@ -76,7 +76,7 @@ def curve_of(options: dict[str, Any]) -> Any:
 
 
 def sampled(curve: Any, count: int) -> list[float]:
-    """Return values of omega2 in 1/time on the curve (67), a `Hyperbola` in doubles, without the pole.
+    """Return values of omega2 in 1/time on the curve (67), a `Hyperbola` in doubles, without the pole omega2 = -B2.
 
     They are on both branches, for B3 = 0 on the line omega3 = 0; there are `count` or more.
     """
@@ -88,8 +88,9 @@ def sampled(curve: Any, count: int) -> list[float]:
 def described(curve: Any, points: list[float], *columns: Any) -> dict[str, Any]:
     """Return a dict with "pole", "unstable_band" and "points", a list of dicts with the keys of COLUMNS.
 
-    `points` are the values of omega2, `columns` the other quantities, each with a value for each point; all in
-    1/time, or 1/time^2.
+    `points` are the values of omega2; `columns` are omega3, the rates k of precession and phi of proper rotation,
+    all in 1/time, and the square of the nutation frequency in 1/time^2, each with a value for each point. "pole" is
+    omega2 = -B2; "unstable_band" the interval of ((omega2 + B2)/B2)^2 with unstable motions, or None.
     """
     rows = [dict(zip(COLUMNS, row, strict=True)) for row in zip(points, *columns, strict=True)]
     return {"pole": curve.pole, "unstable_band": curve.unstable_band, "points": rows}

@@ -23,7 +23,8 @@ LENGTH, ROUNDED = 1e-3, 1e-6
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
     """Return typed moments (I2, I3) or (I1, I2, I3), or a ratio, moved to those of a plane body if they exceed these.
 
-    A callback of click's option `param`. They are moved only if each moves by less than the unit of its last digit,
+    Moments exceed them if the largest is above the sum of the others, I3 above 2 I2, or the ratio above 2. A
+    callback of click's option `param`. They are moved only if each moves by less than the unit of its last digit,
     in proportion to it, and a line on standard error says so; otherwise they are returned unchanged, and refused
     later. None is returned as it is.
     """
@@ -60,9 +61,10 @@ def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any
 def nearest_tensor(_: click.Context, param: click.Parameter, value: Any) -> Any:
     """Return a typed tensor I11 I22 I33 I12 I13 I23, moved to that of a plane body if just beyond it.
 
-    A callback of click's option `param`. It is moved only if each number changes by less than the unit of its last
-    digit; None and other tensors are returned unchanged. Raises click.UsageError for a tensor of no body that
-    another order or sign of the numbers makes that of a body.
+    Beyond it the largest principal moment exceeds the sum of the others. A callback of click's option `param`. The
+    tensor is moved only if each number changes by less than the unit of its last digit; None and other tensors are
+    returned unchanged. Raises click.UsageError for a tensor of no body that another order or sign of the numbers
+    makes that of a body.
     """
     if value is None:
         return None

@@ -25,8 +25,9 @@ OF_POINTS = {"x": "position", "y": "position", "z": "position", "mass": "mass", 
 class Masses(NamedTuple):
     """Point masses (N,), positions (N, 3) from the centre of mass, mass matrix (3, 3), charges (N,) or None.
 
-    The mass matrix is sum m x x^T. `exact` is the same as nested lists of rational numbers. Units are kg, m and C
-    where the file has units, else those of the file.
+    The mass matrix is sum m x x^T, x from the centre of mass; `exact` is the mass matrix as nested lists of rational
+    numbers. Positions are along the file's axes x, y, z. Units are kg, m and C where the file has units, else those of
+    the file.
     """
 
     masses: Any
@@ -66,10 +67,10 @@ def point_masses(path: Path) -> Masses:
 
 
 def points(path: Path) -> Any:
-    """Return the `SymmetricBody` of a file of point masses, axis z.
+    """Return the `SymmetricBody` of a file of point masses, with the symmetry axis z.
 
-    Up to 1e-9 of the largest moment is allowed, with a warning. Raises click.UsageError if they are not symmetric
-    about z, or if their charges are not in proportion to their masses.
+    A deviation from symmetry of up to 1e-9 of the largest moment is allowed, with a warning. Raises click.UsageError if
+    the masses are not symmetric about z, or if their charges are not in proportion to their masses.
     """
     import numpy as np
 
@@ -99,9 +100,9 @@ def points(path: Path) -> Any:
 
 
 def oblique_tensor(path: Path) -> Any:
-    """Return the inertia tensor (3, 3) of a file of point masses about their centre.
+    """Return the inertia tensor (3, 3) of a file of point masses about their centre of mass, along x, y, z.
 
-    None where x, y, z are principal axes.
+    None where x, y, z are principal axes: all products are zero.
     """
     import numpy as np
 
@@ -116,9 +117,9 @@ def exact_inertia(path: Path) -> list[Any]:
 
 
 def principal_moments(path: Path) -> tuple[float | Fraction, ...]:
-    """Return the moments (I1, I2, I3) of a file of point masses about their centre, as floats or fractions.
+    """Return the moments (I1, I2, I3) about x, y, z of a file of point masses, about their centre of mass.
 
-    Raises click.UsageError unless x, y, z are principal axes.
+    They are floats, or fractions where no float is equal. Raises click.UsageError unless x, y, z are principal axes.
     """
     import numpy as np
 

@@ -52,8 +52,8 @@ def recorded(lines: Any) -> dict[str, Any]:
 def show_lines(lines: Any, unit: str) -> None:
     """Print the rates, then a row for each spectral line with a frequency >= 0: integers, frequency, amplitude.
 
-    `lines` is the `Spectrum`; `unit` is that of its frequencies and rates. The amplitude is the norm of the complex
-    ones of all components.
+    `lines` is the `Spectrum`; `unit` is that of its angular frequencies and rates, such as 1/s. The integers
+    multiply the rates. The amplitude is the norm of the complex amplitudes of all components.
     """
     rows = [
         [*map(str, c), f"{f:.10g}", f"{size:.6g}"]

@@ -103,10 +103,10 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
 
 
 def requested(options: dict[str, Any]) -> tuple[str, dict[str, Any], str]:
-    """Return (family, values of its parameters by name, the principal axes of a tensor in terms of the given ones).
+    """Return (family, values of its parameters by name, text of a tensor's principal axes in terms of the given ones).
 
-    `options` are the command's, by name. Values are numbers, or texts as typed; the axes are "" where they are equal.
-    Raises click.UsageError for parameters that do not fit the family.
+    `options` are the command's, by name. Values are numbers, or texts as typed; the text is "" where the axes are the
+    given ones. Raises click.UsageError for parameters that do not fit the family.
     """
     if options["family"] is None:
         raise click.UsageError(f"FAMILY is missing: name the family to sweep, {NAMES}.")

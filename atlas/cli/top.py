@@ -122,8 +122,9 @@ def chosen_top(options: Mapping[str, Any]) -> Any:
 def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tuple[float, ...]) -> Any:
     """Return the `TopMotion` of a heavy top.
 
-    `direction` (n2, n3) points upwards, `omega` has three components in rad/s. Raises click.UsageError without a
-    mass, of --mass or of the points. `options` are the command's, by name.
+    `direction` (n2, n3) points upwards, n3 along the body's axis, at t = 0; `omega` has three components in rad/s along
+    the body's axes. Raises click.UsageError without a mass, of --mass or of the points. `options` are the command's, by
+    name.
     """
     from atlas.motions.nutation.kernel_top import TopMotion
 
@@ -135,10 +136,11 @@ def _heavy(options: Mapping[str, Any], direction: tuple[float, float], omega: tu
 
 
 def _charged(options: Mapping[str, Any], omega: tuple[float, ...]) -> Any:
-    """Return the `TopMotion` of a charged top; with --heavy it is held at a point, with its weight along the field.
+    """Return the `TopMotion` of a charged top; with --heavy it is held at a point and has a weight.
 
-    `omega` (3,) is the initial angular velocity in rad/s. Raises click.UsageError for --direction without --heavy.
-    `options` are the command's, by name.
+    Up is then --direction, by default the direction of the field, to which it must be parallel. `omega` (3,) is the
+    initial angular velocity in rad/s along the body's axes. Raises click.UsageError for --direction without
+    --heavy. `options` are the command's, by name.
     """
     from atlas.bodies.body import SymmetricBody
     from atlas.motions.nutation.kernel_top import TopMotion

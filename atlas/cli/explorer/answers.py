@@ -50,9 +50,9 @@ def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
 def state(subject: Subject, values: Mapping[str, float], *, proven: bool) -> dict[str, Any]:
     """Return the answer to the page as a dict: "scene", "size", "alt", "numbers" and "command".
 
-    `values` are those of the sliders by name. "scene" is None for a picture that is not in space; "size" is in
-    millimetres; "numbers" is a list of dicts of texts, empty for recipes. The numbers are certified if `proven`, else
-    doubles.
+    `values` are those of the sliders by name. "scene" is None for a picture that is not in space; "size" is (width,
+    height) in millimetres; "alt" is its alternative text; "numbers" is a list of dicts of texts, see `_numbers`, empty
+    for recipes; "command" is the command line. The numbers are certified if `proven`, else doubles.
     """
     with DRAWING:
         from atlas.pictures.drawing import viewer
