@@ -327,19 +327,19 @@ class Flow:
         return _Way(self.rates(a, g), [_units(x, bits) for x in self.start], bits, guess, proven=proven)
 
 
-def _products(rows: Series, count: int, least: int) -> Iterator[list[int]]:
+def _products(rows: Series, count: int, shortest_block: int) -> Iterator[list[int]]:
     """Yield the coefficients 0 to ``count`` - 1 of PRODUCTS, lists of integers, from the coefficients of `rows` so far.
 
-    The caller appends a coefficient to each row after each item. In blocks longer than ``least``, the contribution
-    of the first half to the second is one product of polynomials.
+    The caller appends a coefficient to each row after each item. In blocks longer than ``shortest_block``, the
+    contribution of the first half to the second is one product of polynomials.
     """
-    size = least
+    size = shortest_block
     while size < count:
         size *= 2
     sums = [[0] * size for _ in PRODUCTS]
 
     def block(start: int, stop: int) -> Iterator[list[int]]:
-        if stop - start <= least:
+        if stop - start <= shortest_block:
             for n in range(start, stop):
                 back = [row[n - start :: -1] for row in rows]
                 for total, (x, y) in zip(sums, PRODUCTS, strict=True):

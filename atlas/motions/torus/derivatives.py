@@ -231,10 +231,10 @@ class Neighbours:
         ]
 
 
-def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: ThetaMotion) -> Constants:
+def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, motion: ThetaMotion) -> Constants:
     """Return the `Constants` of the motion with the input number ``place`` of ``values`` larger by 2^-``step``.
 
-    ``here`` is the motion itself, ``rate`` the unit of 1/time. Raises DomainError where the neighbour has no theta
+    ``motion`` is the motion itself, ``rate`` the unit of 1/time. Raises DomainError where the neighbour has no theta
     functions.
     """
     values_there = [x + fmpq(1, 2**step) if i == place else x for i, x in enumerate(values)]
@@ -242,8 +242,8 @@ def _neighbour(values: Sequence[fmpq], place: int, step: int, rate: fmpq, here: 
     torus = Torus(tuple(values_there[:3]), tuple(w + k for w, k in zip(omega, K, strict=True)), tuple(K))
     try:
         with workprec(BITS):
-            lattice = _followed(torus.lattice, here.lattice)
-        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, here)
+            lattice = _followed(torus.lattice, motion.lattice)
+        theta = ThetaMotion(torus.integrals, torus.W, torus.K, lattice, motion)
     except NotCertifiedError as reason:
         raise DomainError(f"A neighbour of the motion has no theta functions: {reason}") from reason
     return Constants(theta, torus, rate)
