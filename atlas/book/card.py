@@ -107,9 +107,9 @@ def _number(key: str, family: Family, motion: Any, arguments: Mapping[str, Any],
 def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], functions: Any) -> Any:
     """Return the rate about the body's axis in rad/time for the key "spin", the time of one turn for "turn".
 
-    The turn is that of the axis about the field. `arguments` are the family's inputs by name, `functions` is `math`
-    or `Balls`. Raises DomainError for "turn" where the axis does not go round. `motion` is the object in doubles or
-    in balls.
+    The rate has a sign, the time is positive; the turn is that of the axis about the field. `arguments` are the
+    family's inputs by name, `functions` is `math` or `Balls`. Raises DomainError for "turn" where the axis does not
+    go round. `motion` is the object in doubles or in balls.
     """
     if (rate := _spin_of_free_body(arguments)) is not None:
         if key == "spin":
@@ -131,7 +131,8 @@ def _turn(key: str, family: Family, motion: Any, arguments: Mapping[str, Any], f
 def _spin_of_free_body(arguments: Mapping[str, Any]) -> Any:
     """Return the rate, in rad/time, of a free body's spin about its symmetry axis or a principal axis; else None.
 
-    None also for a body at rest, in a field, or without a start. `arguments` are the family's inputs by name.
+    The rate is the only component of its angular velocity that is not 0. None also for a body at rest, in a field, or
+    without a start. `arguments` are the family's inputs by name.
     """
     omega = arguments.get("omega")
     if omega is None or any(arguments.get("field", (1.0,))):

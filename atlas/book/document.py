@@ -147,9 +147,10 @@ class Document:
         return link
 
     def from_beside(self, name: str) -> Link | None:
-        """Return the `Link` with which another report cites a name of this one; None if the name is not here.
+        """Return the `Link` with which a related report cites a name of this one; None if the name is not here.
 
-        "report:NAME" leads to this report's first page, "page:gallery" to its gallery.
+        "report:NAME" leads to this report's first page, "page:gallery" to its gallery. The link's page is a path
+        from a page of the other report, "../NAME/file.html".
         """
         folder, title = f"../{self.report.name}", self.report.title
         if name == f"report:{self.report.name}":
@@ -165,7 +166,11 @@ class Document:
 
     @property
     def outline(self) -> Outline:
-        """The report as those beside it see it, by name: links, pages of entries of the ledger, uses of equations."""
+        """Answers to questions of related reports, {"link": ..., "entry": ..., "uses": ...}, each a dict by name.
+
+        A link is that of `from_beside`, an entry the path without suffix of the page with an equation's ledger
+        entry, and uses are lists of `Use`. Paths begin with "../NAME/".
+        """
         folder = f"../{self.report.name}"
         names = (f"report:{self.report.name}", "page:gallery", *self.targets, *self.ledger)
         return {
@@ -180,7 +185,10 @@ class Document:
 
     @property
     def door(self) -> str:
-        """Address of the gallery, of this or of a related report; "" without one."""
+        """Address of the gallery's page, of this report or else of a related one; "" without one.
+
+        Of several related reports with a gallery the first counts.
+        """
         links = self.beside.ask("link", "page:gallery")
         return "gallery.html" if self.gallery else links[0][1] if links else ""
 

@@ -91,7 +91,7 @@ def is_stable(item: Thing) -> bool | None:
 def is_still(item: Thing) -> bool:
     """Return whether a body is at rest, or spins about its symmetry or third axis along the field or without one.
 
-    False for an object without a start.
+    False for a top at rest whose axis is off the field, since it falls, and for an object without a start.
     """
     values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
     if not item.family.sampled or not {"field", "direction"} & values.keys() or not {"omega", "omega2"} & values.keys():

@@ -101,7 +101,10 @@ class Composer:
             self.uses[name].append(place)
 
     def uses_of(self, name: str) -> list[Use]:
-        """Return the uses of an equation, those in reports beside this one first; the list grows with this report."""
+        """Return the uses of an equation by its name, a list of `Use`, those in related reports first.
+
+        It is the list in `uses`, to which later uses of this report are added.
+        """
         uses: list[Use] = self.uses[name]
         answers = self.document.beside.ask("uses", name)
         uses[:0] = [use for answer in answers for use in (Use(*words) for words in answer) if use not in uses]

@@ -107,16 +107,20 @@ def build_report(
 
 
 def key_of(file: Path, sources: Sources, style: str | None = None, values: Mapping[str, Any] | None = None) -> str:
-    """Return the digest of all that a report depends on but for the answers of those beside it, see `outlines`.
+    """Return the digest of all that a report depends on, but for the answers of its related reports, see `outlines`.
 
-    `style` is a style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for
-    none. `sources` digests files of code.
+    That is its file, inputs, style, recipes and bibliographies, the code, templates and libraries. `style` is a
+    style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for none.
+    `sources` digests files of code.
     """
     return digest(_own(file, sources), related_to(file), values or {}, sources.named(style), _program(sources))
 
 
 def _own(file: Path, sources: Sources) -> str:
-    """Return the digest of a report's file, and of the recipes, style sheets and bibliographies beside it."""
+    """Return the digest of a report's file and of the files in its folder that it names: recipes, styles, Markdown.
+
+    All BibTeX files of the folder count too, and for a report with a gallery all its recipes.
+    """
     text = file.read_bytes()
     neighbours = (path for kind in ("*.py", "*.md", "*.mplstyle") for path in file.absolute().parent.glob(kind))
     sources_beside = (
@@ -143,8 +147,8 @@ def _unchanged(
 ) -> Built | None:
     """Return the `Built` of the existing report if each of its `formats` was built with this key, else None.
 
-    Its files must be unedited, and the reports beside it must answer what it asked as before. `name` is that of its
-    folder in `out`.
+    None also where its files were edited, and where its related reports answer differently now than at that build, see
+    `Beside`. `name` is that of its folder in `out`.
     """
     record_before = cache.load(_noted(name, out))
     for form in formats:
@@ -251,8 +255,8 @@ def _publish(
 ) -> None:
     """Write the files of the format `form`, contents by path, into `out`; save digests, key and counts in the cache.
 
-    So are the answers of the reports beside it. `key` is None if a figure failed, so that the next build starts anew;
-    `counts` are the numbers of pages and figures. Raises AtlasError for files that the user edited.
+    The answers of the related reports are saved too, see `Beside`. `key` is None if a figure failed, so that the next
+    build starts anew; `counts` are the numbers of pages and figures. Raises AtlasError for files that the user edited.
     """
     name = document.report.name
     record: dict[str, Any] = cache.load(_noted(name, out))
@@ -298,7 +302,11 @@ def _reference(cache: Cache, sources: Sources) -> "dict[str, Described]":
 
 
 def outlines(file: Path, cache: Cache, sources: Sources) -> Beside:
-    """Return the reports related to that of a file in outline: numbers and anchors, but no computed tables."""
+    """Return a `Beside` with the outlines of the reports related to that of `file`: links, ledger entries and uses.
+
+    No table of theirs is computed. An outline that an earlier build has made comes from the cache; `sources`
+    digests the code that it depends on.
+    """
 
     def outline(file: Path) -> bytes:
         from atlas.book.compose import compose

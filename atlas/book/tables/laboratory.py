@@ -108,7 +108,7 @@ class Lines(Dipole, frozen=True):
 def lines(setup: Lines) -> Data:
     """Return the table of spectral lines of the axis for each spin, with combinations and largest displacements.
 
-    A row has spin and line in turns a second, the combination of frequencies in words, such as "+1 nutation", and the
+    A row has spin and line in turns a second, the combination of frequencies in words, such as "1 nutation", and the
     displacement across and along the field, of an axis of length 1. A line a exp(i f t), f in rad/s, and its conjugate
     at -f draw an ellipse, whose larger semi-axis is twice the largest singular value of (Re a, Im a); the mean has no
     conjugate. Lines with f < 0 have no row.
