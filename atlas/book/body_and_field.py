@@ -117,16 +117,20 @@ class BodyAndField:
 
     @property
     def components(self) -> tuple[float, float]:
-        """Components (B2, B3) of B' in 1/s, as floats. Raises AtlasError without a field."""
+        """Components (B2, B3) of B' in 1/s, as floats, along e2 and along the body's axis e3 at t = 0.
+
+        B2 >= 0 for a field given as B. Raises AtlasError without a field.
+        """
         if self.field is None:
             raise AtlasError("this needs a field: name one with the key 'field'.")
         return self.field
 
     @property
     def exact_components(self) -> tuple[float | Fraction, ...]:
-        """Components (B2, B3) of B' in 1/s: exact if B is in the plane of e2 and e3, B3 >= 0; else rounded to floats.
+        """Components (B2, B3) of B' in 1/s, along e2 and along the axis e3, see `LaboratoryFrame`: floats or fractions.
 
-        B' given as such is exact. Raises AtlasError without a field.
+        They are not rounded if B' was given, or if B was with the body's axis along the third axis of its
+        components, B1 = 0 and B'2 >= 0; else they are floats, each rounded once. Raises AtlasError without a field.
         """
         if self.field_record and self.field_record.prime is not None:
             return tuple(as_float_or_fraction(rational(x, "prime")) for x in self.field_record.prime)

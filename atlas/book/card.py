@@ -257,9 +257,10 @@ class Balls:
 def card(request: Asked) -> dict[str, dict[str, Any]]:
     """Return the card: for each key of `ENTRIES` a dict with the number, or the reason why there is none.
 
-    Its keys are says, letter, value, unit, sigma (standard deviation or None), digits as text, proven_digits (their
-    count), equation and reason; value, unit and digits are None without a number. A value is the double nearest to
-    the proven number; one that is not proven is computed in doubles, with proven_digits 0.
+    The keys of a dict are says, letter, value, unit, sigma (standard deviation or None), digits as text,
+    proven_digits (their count), equation and reason; value, unit and digits are None without a number. A value is
+    the double nearest to the proven number; one that is not proven is computed in doubles, with proven_digits 0 and
+    ten digits.
     """
     item = thing_of(request)
     names = [p.name for p in request.family.parameters]

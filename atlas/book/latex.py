@@ -44,7 +44,8 @@ _ESCAPES = str.maketrans(
 class Numeral:
     """A number with its `key`, such as "motion/omega2": its digits as text, their count, and its unit for siunitx.
 
-    `digits` is the count of proven digits, `value` the text; `cell` is the mark of the table cell, "table-row-column".
+    `digits` is the count of proven digits, 99 (`ZERO_DIGITS`) for an exact zero, `value` the text; `cell` is the
+    mark of the table cell, "table-row-column".
     """
 
     key: str

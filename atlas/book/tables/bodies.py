@@ -269,8 +269,9 @@ def coats(setup: CoatParameters) -> Data:
 def swings(request: Request, setup: DiamagnetismParameters) -> Data:
     """Return the table of swings of bodies released at rest in Larmor's frame: by charge, and with induced moment.
 
-    A row has the title, Larmor's period in s, then rate in 1/s and period in s by the charge alone, both with the
-    induced moment, and the quotient of the squared rates; a dash for zero. Raises the errors of `magnetised`.
+    A row has the title, Larmor's period in s, then, by the charge alone, the angular rate of small swings of the
+    axis in 1/s and the period of its inclination in s, both with the induced moment, and the quotient of the
+    squared rates; a dash for zero. Raises the errors of `magnetised`.
     """
     from atlas.motions.nutation.kernel_top import TopMotion
 

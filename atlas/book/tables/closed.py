@@ -126,9 +126,9 @@ class CompanionParameters(StrictStruct, frozen=True):
 def companions(request: Request, setup: CompanionParameters) -> Data:
     """Return the table of steady precessions that other motions leave and come back to, theorem-companion-range.
 
-    A row has B', omega2, the angle theta between axis and field, the growth rate sqrt(c) of a push, and the angles
-    theta_+ and theta_- at which the companions turn: rates in 1/s, angles in degrees. Raises AtlasError where there
-    is no companion.
+    Those motions are the companions. A row has B', omega2, the angle theta between axis and field, the rate sqrt(c) at
+    which a small push grows, and the angles theta_+ and theta_- with the field at which the companions turn back: rates
+    in 1/s, angles in degrees. Raises AtlasError where there is no companion.
     """
     columns = columns_of(lambda: [angles(setup.ratio, *motion) for motion in setup.motions], request.digits)
     motions = [(f"$(0,{plain(B2)},{plain(B3)})$", Number.as_given(omega2)) for B2, B3, omega2 in setup.motions]
@@ -149,7 +149,7 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
 
 
 def angles(ratio: float, B2: float, B3: float, omega2: float) -> tuple[Any, ...]:
-    """Return balls theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees) of an elementary motion.
+    """Return theta (degrees), sqrt(c) (1/s), theta_+, theta_- (degrees) of an elementary motion, as balls.
 
     They are the columns of `companions`; sqrt(c) = 0 is an exact rational. Raises AtlasError without a companion.
     `ratio` is I3/I2; B2, B3 and omega2 are in 1/s.

@@ -31,8 +31,8 @@ def side_by_side(
 ) -> tuple[tuple[Column, ...], tuple[tuple[str | Number, ...], ...]]:
     """Return (columns, rows) of a table with a column for each body, from their quantities in the same order.
 
-    The numbers of a row have the number of decimals that gives the largest of them the requested digits. `bodies`
-    has a list of quantities for each body of the request.
+    A row has meaning, symbol, a value for each body, and unit. The values of a row have the number of decimals that
+    gives the largest of them the requested digits. `bodies` has a list of quantities for each body of the request.
     """
     titles = [case.body_record.title if case.body_record else "body" for case in request.cases]
     values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
@@ -221,8 +221,9 @@ def motion(request: Request, setup: Motion) -> Data:
 def of_motion(case: BodyAndField, setup: Motion, digits: int) -> list[Quantity]:
     """Return the quantities of the motion of a body from the omega2 and omega3 of ``setup``, to ``digits`` digits.
 
-    They are the start (67), k and phi (72), the square of the frequency of nutation where the motion is one of the
-    hyperbola, the energy and the integrals (36) to (41), and (m, B')/I2 (88), in 1/s or 1/s^2.
+    They are the start (67), the rates k of precession and phi of proper rotation (72), the square of the frequency of
+    nutation and "stable" or "unstable" where the motion is one of the hyperbola, the energy and the integrals (36) to
+    (41), and (m, B')/I2 (88), m the angular momentum, in 1/s or 1/s^2.
     """
     from atlas.motions.elementary.certified import ElementaryMotion
     from atlas.motions.elementary.certified_hyperbola import Hyperbola
