@@ -121,7 +121,10 @@ class Fitted:
         }  # fmt: skip
 
     def _quality(self) -> str:
-        """Return a text of sentences on reduced chi square and standard error; lines end after each subject."""
+        """Return sentences on reduced chi square and the standard error of a measurement, as one text.
+
+        Without warnings a second line says that nothing in the residuals speaks against the motion.
+        """
         fit = self.fit
         expected = f"where 1 ± {(2 / fit.nfree) ** 0.5:.2g} is expected"
         says = (

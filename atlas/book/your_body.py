@@ -94,9 +94,10 @@ def sign_of(request: Asked) -> str:
 
 
 def shape_of(request: Asked) -> dict[str, Any] | None:
-    """Return parameters of the body's picture: {"is_ball": True} for a sphere, or {"radius": m, "height": m}.
+    """Return parameters of the body's picture: {"is_ball": True}, or {"radius": m, "height": m}.
 
-    None for a spheroid, and without a shape.
+    The first is for a sphere or spherical shell. A shape without a radius or height, such as a rod or a ring, has 0 for
+    it; a rod's length is its height. None for a spheroid, and without a shape.
     """
     body = request.body or {}
     if "shape" not in body or body["shape"] == "spheroid":

@@ -123,7 +123,8 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     """Return (dict for JSON, lines of text): the predictions of a fit at the times --predict, and its horizon.
 
-    A horizon that is no finite time is None, with words under "missing"; both are empty without these options.
+    The horizon is the time until which the error of a prediction is below --horizon; one that is no finite time is
+    None, with words under "missing". Both results are empty without these options.
     """
     record, lines = dict[str, Any](), list[str]()
     for time in map(float, options["predict"]):

@@ -46,7 +46,9 @@ def write_table(motion: Any, times: Sequence[float], out: Path, units: Mapping[s
 def parameters_of(motion: Any) -> dict[str, list[str]]:
     """Return the inputs of a motion by name for a trajectory's head, as lists of shortest decimal texts.
 
-    Of a motion in given axes they are inertia (six numbers of the tensor), field, omega and attitude.
+    A body with moments is given as inertia, (I2, I3), in the place of its ratio. Of a motion in given axes the
+    inputs are inertia (I11 I22 I33 I12 I13 I23 of the tensor), field, omega and attitude, the quaternion x, y, z, w
+    at t = 0.
     """
     if getattr(motion, "is_placed", False):
         J, field, _, omega = motion.given
