@@ -24,7 +24,7 @@ def scene(
     azimuth: float = 25.0,
     elevation: float = 16.0,
 ) -> Scene:
-    """Show a ball with ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field along e3.
+    """Show a solid ball with the moment ``inertia`` I0 and ``momentum`` (m2, m3) at t = 0 in a field along e3.
 
     ``larmor`` is Larmor's frequency, in rad/time; zero raises DomainError. Azimuth and elevation of the view are in
     degrees.

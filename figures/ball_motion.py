@@ -23,10 +23,10 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw R_3(t) and Omega(t) of the ball over ``periods`` of its turn about k.
+    """Draw R_3(t) and Omega(t) of a solid ball over ``periods`` of its turn R_k(-gamma t) about the vector k of (20).
 
-    ``inertia`` I0, Larmor's frequency ``larmor`` in rad/time and ``momentum`` (m2, m3) at t = 0 are given as to
-    ``BallMotion``. The elevation of the view is in degrees; ``unit`` is the word for the unit of time on the axes.
+    The moment ``inertia`` I0, Larmor's frequency ``larmor`` in rad/time and ``momentum`` (m2, m3) at t = 0 are given as
+    to ``BallMotion``. The elevation of the view is in degrees; ``unit`` is the word for the unit of time on the axes.
     """
     motion = BallMotion(inertia, larmor, momentum)
     period = 2 * pi / motion.gamma if motion.gamma else 0.0

@@ -31,10 +31,11 @@ def scene(
     ratios: tuple[float, ...] = (2.5, 2.618034),
     turns: tuple[float, ...] = (2.0, 13.0),
 ) -> Scene:
-    """Draw torus and ball (I0 = 1) for each gamma/alpha in ``ratios``, over as many ``turns`` of alpha = ``larmor``.
+    """Draw torus and solid ball (I0 = 1) for each gamma/alpha in ``ratios``, over ``turns`` of alpha = ``larmor``.
 
-    gamma is the rate about k, alpha Larmor's frequency, ``m3`` the momentum along B at t = 0. Raises DomainError
-    unless there are one to four ratios, as many turns, 400 turns of gamma at most, and a ball with each ratio.
+    gamma is the rate about the vector k, alpha Larmor's frequency, see `BallMotion`; ``m3`` is the momentum along B at
+    t = 0. Raises DomainError unless there are one to four ratios, as many turns, 400 turns of gamma at most, and a body
+    with each ratio.
     """
     larmor = positive(larmor, "larmor")
     least = abs(1.0 + m3 / larmor)
@@ -78,10 +79,10 @@ def scene(
 
 
 def pair(names: tuple[str, str], ball: BallMotion, larmor: float, stop: float, *, named: bool) -> list[Space]:
-    """Return two panels: the torus with its net and the line of the motion, and the ball with the path of R_1.
+    """Return two panels: the torus with its net and the line of the motion, and the solid ball with the path of R_1.
 
-    `names` are their titles, `larmor` is alpha in rad/time, `stop` the last time. The ball shows the field and k at
-    t = 0; its start has a name if `named`.
+    `names` are their titles, `larmor` is alpha in rad/time, `stop` the last time. The second panel shows the field, and
+    the axis k at t = 0; the start of the path has a name if `named`.
     """
     sag, is_bold = tolerance(1.5), larmor * stop < MAX_BOLD_PHASE
     pieces = max(16, int(4 * (larmor + ball.gamma) * stop / np.pi))

@@ -75,9 +75,10 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
     """Return the `Plane` of one c, with names at its curves; upwards stands H less F over twice the middle moment.
 
     `name` is its title, `bifurcation` has the critical values of H and F at one c = (M, K). ``reach`` is the width
-    of the panel in units of that of the three spins. Motions with values H and F exist if the sum of squares of
-    theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on the bounded one, so
-    that the stretches with s > 0 are the border, for p = 0 the parabola and the stable rays.
+    of the panel in units of that of the three spins about principal axes. Motions with values H and F exist if the
+    sum of squares of theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on the
+    bounded one, so that the stretches with s > 0 of that theorem are the border, for c = 0 the parabola and the
+    stable rays.
     """
     middle = int(np.argsort(bifurcation.inertia)[1])
     slope = 1 / (2 * float(bifurcation.inertia[middle]))

@@ -13,9 +13,10 @@ SEEN = "A ball's surface of initial data is a cone."
 
 
 def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 25.0, elevation: float = 14.0) -> Scene:
-    """Show the cone of a ball with all that lies in the plane omega_1 = 0; ``field`` = (B2, B3) of B', in 1/time.
+    """Show the quadric of a solid ball, a cone, with all that lies in the plane omega_1 = 0.
 
-    Azimuth and elevation of the view are in degrees. Raises DomainError unless B2 and B3 differ from 0.
+    ``field`` is (B2, B3) of B', in 1/time. Azimuth and elevation of the view are in degrees. Raises DomainError unless
+    B2 and B3 differ from 0.
     """
     if Quadric(1.0, field).kind != "cone":
         raise DomainError(

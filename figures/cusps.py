@@ -144,7 +144,7 @@ def rates(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
     """Return a `Plane` of the energies g over the momentum p, less those of the cusps' line: the least, and the tops'.
 
-    `letter` is that of the panel, `unit` the word for the unit of time.
+    p and g are as in `value`. `letter` is that of the panel, `unit` the word for the unit of time.
     """
     wells = Wells.of(tops[0])
     M3 = wells.M3
@@ -182,7 +182,10 @@ def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:
 
 
 def value(top: TopMotion, wells: Wells) -> FloatArray:
-    """Return (p, g) of a top's motion from its start, shape (2,): momentum along n and energy, as in `wells`."""
+    """Return (p, g) of a top's motion from its start, shape (2,): momentum along n, in 1/time, and energy, in 1/time^2.
+
+    Both are in units of I2, and g is that of `Wells.energy`, with the axis starting at the angle between e3 and n.
+    """
     (n2, n3), (_, omega2, _) = top.direction, top.omega
     nu, sine = n3 / np.hypot(n2, n3), n2 / np.hypot(n2, n3)
     return np.array([omega2 * sine + wells.M3 * nu, wells.energy(nu, omega2 / sine)])

@@ -39,8 +39,9 @@ def scene(
 ) -> Scene:
     """Draw k, phi and phi/k up to ``reach`` times B2 from the pole; p/q is marked for |p| and q up to ``order``.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; ``unit`` is the word for the unit of time. Raises
-    DomainError for B2 = 0 and for an order above 8.
+    k and phi are the frequencies of precession and proper rotation; the pole is omega2 = -B2. ``ratio`` is I3/I2;
+    ``field`` is (B2, B3) of B', in 1/time; ``unit`` is the word for the unit of time. Raises DomainError for B2 = 0 and
+    for an order above 8.
     """
     order = whole(order, "order", 1)
     if order > MAX_ORDER:

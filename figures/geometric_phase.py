@@ -34,11 +34,12 @@ def scene(
     shown: float = -0.3,
     count: int = 48,
 ) -> Scene:
-    """Draw the turn about the field in a period, and its parts, at ``count`` places between two ``z``.
+    """Draw the turn about the field in a period of the field in the body, and its parts, at ``count`` places in ``z``.
 
-    Beside them is the curve of the field in the body at the place ``shown``. ``z`` and ``branch`` are as for
-    ``EllipticMotion``, of a body with the principal moments ``inertia``; ``field`` is B' along its axes, in 1/time.
-    Raises DomainError unless low < high in z, with ``shown`` between, and 2 to 1000 places.
+    Next to them is the curve of the field in the body at the place ``shown``. ``z`` has the two ends; ``z`` and
+    ``branch`` are as for ``EllipticMotion``, of a body with the principal moments ``inertia``; ``field`` is B'
+    along its axes, in 1/time. Raises DomainError unless low < high in z, with ``shown`` between, and 2 to 1000
+    places.
     """
     if not (z[0] < z[1] and z[0] <= shown <= z[1] and 2 <= count <= 1000):
         raise DomainError(

@@ -64,7 +64,8 @@ def scene(
 def _straight(ratios: tuple[float, ...], field: tuple[float, float], view: Window) -> list[Layer]:
     """Return layers of the lines omega2 = 0 and omega3 = 0, and, for B2 B3 not zero, of pole and asymptotes.
 
-    `ratios` are I3/I2, `field` is (B2, B3), `view` the window; a ball's line is drawn instead of the pole.
+    `ratios` are I3/I2, `field` is (B2, B3), `view` the window. If I = 1 is among the ratios the pole is left out,
+    for it is a part of the curve of that body.
     """
     B2, B3 = components(field)
     layers: list[Layer] = [Curve(view.level(0.0), "guide"), Curve(view.upright(0.0), "guide")]

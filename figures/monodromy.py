@@ -72,7 +72,10 @@ def scene(*, ratio: float = 1.5, M3: float = 0.5, b: float = 1.0, points: int = 
 
 
 def words(loop: Monodromy) -> str:
-    """Return the image of the period g3 after the loop as TeX, for a title: g3 -> g3 + m g1 + n g2."""
+    """Return the image of the period g3 after the loop as TeX, for a title: g3 -> g3 + m g1 + n g2.
+
+    g1 and g2 are one turn about n and one about the axis, g3 is one nutation with its turns undone.
+    """
     terms = ""
     for number, name in zip(loop.matrix[2], ("g_1", "g_2"), strict=False):
         if number:

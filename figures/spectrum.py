@@ -30,10 +30,12 @@ def scene(
     names: int = 12,
     unit: str = "time",
 ) -> Scene:
-    """Draw lines down to ``least`` of the whole, with the whole numbers of the ``names`` highest ones of each panel.
+    """Draw spectral lines down to ``least``, and the whole numbers of the ``names`` highest ones of each panel.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is
-    the word for the unit of time. Raises DomainError for ``least`` outside 1e-12 to 0.1.
+    ``least`` is the least amplitude drawn, over the root mean square of the vector; the whole numbers are the
+    multiples of the basic rates in a line's frequency, see `Spectrum`. ``ratio`` is I3/I2; ``field`` is (B2, B3) of
+    B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is the word for the unit of time. Raises
+    DomainError for ``least`` outside 1e-12 to 0.1.
     """
     least, names = number(least, "least"), whole(names, "names", 0)
     if not 1e-12 <= least <= 0.1:

@@ -167,12 +167,12 @@ class Results(Item, frozen=True):
 
 
 def stored() -> Path:
-    """Return the path of the repository's benchmark record, reports/data/bench.json."""
+    """Return the path of the benchmark record bench.json in the folder reports/data of the checkout or the package."""
     return folder("reports") / "data" / "bench.json"
 
 
 def read(path: Path | None = None) -> Results:
-    """Return the `Results` of a benchmark record, by default (None) the repository's reports/data/bench.json.
+    """Return the `Results` of a benchmark record, by default (None) the stored one, see `stored`.
 
     Raises AtlasError for a file that does not exist or is no such record.
     """

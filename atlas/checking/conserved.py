@@ -87,8 +87,9 @@ def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, Floa
 def conserved(J: Any, Omega: Any, K: Any) -> Iterable[Value]:
     """Yield (name, meaning, equation, values, size) of five conserved quantities, for an inertia tensor J (3, 3).
 
-    They are the Hamiltonian H, Clebsch's integral F, (M,K), K^2 and the kinetic energy T. Omega and K, the field in
-    the body, have the shape (..., 3); M = J (Omega + K); sizes are sums of the magnitudes of the terms.
+    They are the Hamiltonian H in Larmor's frame, Clebsch's integral F, (M,K), K^2 and the kinetic energy T, as
+    `atlas.clebsch` has them. Omega and K, the field in the body, have the shape (..., 3); M = J (Omega + K) is the
+    canonical momentum; sizes are sums of the magnitudes of the terms.
     """
     M = (Omega + K) @ J
     H2, F, component, square, energy2 = formulas.clebsch(*J.flat, *np.moveaxis(Omega, -1, 0), *np.moveaxis(K, -1, 0))
@@ -193,8 +194,8 @@ def _against(values: Iterable[Value], start: Iterable[Value]) -> Iterable[Deviat
 def _integrals(motion: ElementaryMotion | GeneralMotion, Omega: Any, K: Any) -> Iterable[Value]:
     """Yield (name, meaning, equation, values (m,), size) of the integrals that Omega and K (m, 3) determine.
 
-    They are E', K^2, c3, c5 and (m,B') of the paper. K is the field in the body; each of Omega and K may be None.
-    Sizes are sums of the magnitudes of the terms at the start.
+    They are E', K^2, c3, c5 and (m,B') over I2, by (36), (37), (40), (41), (88). K is the field in the body; each of
+    Omega and K may be None. Sizes are sums of the magnitudes of the terms at the start.
     """
     w, k = ([0, 0, 0] if x is None else list(np.moveaxis(x, -1, 0)) for x in (Omega, K))
     E, K2, c3, c5 = formulas.integrals(long(motion.I), w, k)

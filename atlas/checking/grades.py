@@ -40,9 +40,10 @@ class Column:
     """Grade of one column: median and least number of correct digits, time of the least, time of the first failure.
 
     Digits are -log10 of the error; of an entry of R or of a quaternion in units of 1, of Omega in units of its
-    length. The median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls.
-    Of a body with three moments errors below the bound on those of its closed form count as that bound. `fails_at`
-    is the time of the first row below the threshold, None for a column without one.
+    length at t = 0, or for bodies with three moments and tops in units of a largest rate, see `Reference.unit`. The
+    median is rounded to a thousandth; the worst digits, and whether a row fails, are decided by balls. Of a body
+    with three moments errors below the bound on those of its closed form count as that bound. `fails_at` is the
+    time of the first row below the threshold, None for a column without one.
     """
 
     name: str

@@ -35,8 +35,9 @@ class Reference:
     """Reference of a trajectory: a certified `motion`, None for a body of which only integrals are known.
 
     `case` names the type of motion, `parameters` are its inputs by name as plain numbers and lists. `unit`, in
-    rad/time, divides the errors of Omega. `deviations` maps a block of columns to tuples (name, meaning, equation,
-    deviations (m,)) of the conserved quantities.
+    rad/time, divides the errors of Omega: |Omega| at t = 0 of a symmetric body, the largest component of Omega and
+    B' there of another body, the largest rate of a top; 1 if that is 0. `deviations` maps a block of columns to
+    tuples (name, meaning, equation, deviations (m,)) of the conserved quantities.
     """
 
     case: str

@@ -90,9 +90,9 @@ class Quantity:
     slow: bool = False
 
     def value(self, thing: Any, *, exact: bool = False) -> Any:
-        """Return the value of the quantity of an object ``thing`` of kernels or, if ``exact``, of balls.
+        """Return the value of the quantity of an object ``thing`` of the class in doubles or, if ``exact``, in balls.
 
-        A float, an array, a ball, a tuple of these or a name, as the class has it.
+        The value is a float, an array, a ball, a tuple of these or a name, as the class has it.
         """
         return ((exact and self.exact) or self.get or attrgetter(self.name))(thing)
 
@@ -142,7 +142,10 @@ class Sampled:
 
     @property
     def columns(self) -> dict[str, Callable[[Any, Any], Any]]:
-        """The components in a table by column name, each a function of an object and the time."""
+        """The components in a table by column name, each a function of (motion, time or array of times).
+
+        A matrix has nine columns, such as "R11", a vector one for each component, such as "Omega1".
+        """
         if self.matrix:
             return {f"{self.name}{i}{j}": partial(_entry, i, j) for i in (1, 2, 3) for j in (1, 2, 3)}
         return {f"{self.name}{x}": partial(_component, self.method, i) for i, x in enumerate(self.components or "123")}

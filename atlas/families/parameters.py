@@ -93,10 +93,10 @@ def in_brackets(parts: Any) -> str:
 
 
 def integrals(letter: str) -> tuple[Quantity, ...]:
-    """Return five constants of a motion as `Quantity`: E', K^2, c3, c5 and the momentum along the field.
+    """Return five constants of a motion as `Quantity`: E' (36), K^2 (37), c3 (40), c5 (41), momentum along the field.
 
-    ``letter``, "m" or "M", says which momentum: M = II (Omega + K) is the canonical one, m = II Omega the
-    mechanical one.
+    ``letter``, "m" or "M", says which momentum over I2: M = II (Omega + K) is the canonical one, m = II Omega the
+    mechanical one; II is the inertia tensor, K the field in the body.
     """
     momentum = "II (Omega + K) along the field, over I2" if letter == "M" else "momentum along the field, over I2"
     return tuple(

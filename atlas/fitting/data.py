@@ -127,8 +127,10 @@ class Data:
     def differences(self, motion: Any) -> FloatArray:
         """Return data minus motion at the times of the data, shape (N, k).
 
-        For rotations these are three angles about the axes of the laboratory, for axes two angles in the body, in rad;
-        for other kinds the components of the difference. Of a `Flow` of S motions the shape is (S, N, k).
+        For rotations these are the rotation vectors, along the axes of the laboratory, that turn the motion's
+        attitude into the measured one, in rad; for axes the components along the body's first and second axis of
+        the arc from the motion's axis to the measured one, in rad; for other kinds the components of the
+        difference. Of a `Flow` of S motions the shape is (S, N, k).
         """
         values = self.of(motion, self.t)
         if self.kind == "rotation":
@@ -143,11 +145,12 @@ class Data:
     def slopes(
         self, motion: Any, v: FloatArray, field: FloatArray, fields: FloatArray, differences: FloatArray
     ) -> FloatArray:
-        """Return the derivatives of the measured quantity in P parameters, shape (N, k, P): minus those of differences.
+        """Return the derivatives of the measured quantity in P parameters, shape (N, k, P).
 
-        `v` (N, P, 3) has dR/dp = [v]x R; for angular velocities dv/dt is given instead. `fields` (P, 3) are the
-        derivatives of the `field` (3,) in the laboratory. `differences` (N, 3), from the method of this name, are
-        used for rotations only.
+        They are minus the derivatives of what the method `differences` returns, and in its coordinates. `v` (N, P,
+        3) has dR/dp = [v]x R; for angular velocities dv/dt is given instead. `fields` (P, 3) are the derivatives of
+        the `field` (3,) in the laboratory. The argument `differences` (N, 3), from the method of this name, is used
+        for rotations only.
         """
         if self.kind == "rotation":
             # log(D exp(-[v]x)) is log(D) minus the inverse of the transposed Jacobian times v

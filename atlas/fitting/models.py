@@ -283,7 +283,7 @@ def model_of(family: Any) -> Model:
 
 
 def field_of(model: Model, p: Values) -> FloatArray:
-    """Return the field B in 1/time, or a top's direction n, in the laboratory, shape (3,).
+    """Return the field B' in 1/time, or a top's direction n, in the laboratory, shape (3,), from the values p by name.
 
     The data `field_in_body` are this vector along the axes of the body.
     """

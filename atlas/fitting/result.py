@@ -190,7 +190,11 @@ class Fit:
 
     @property
     def nfree(self) -> int:
-        """Degrees of freedom: numbers measured minus parameters varied."""
+        """Degrees of freedom: numbers measured minus parameters varied.
+
+        A rotation or quaternion counts as three numbers, an axis as two, a vector as three, a signal as its own
+        count; rows that were left out do not count.
+        """
         return self.residuals.size - len(self.names)
 
     @property

@@ -120,8 +120,9 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
 def random(problem: Problem, count: int, seed: int, largest: float) -> dict[str, FloatArray]:
     """Return arrays (count,) of random start parameters by name, near the attitude and rates of the data at t = 0.
 
-    There are parameters of all families. `seed` makes them reproducible; `largest` is the length of the largest
-    field, in units of the problem's rate.
+    There are parameters of all families, in the units of `atlas.fit`: rates in rad/time, fields in 1/time. `seed` makes
+    them reproducible. Components of the field are normally distributed, with standard deviations from 0.05 to `largest`
+    times the problem's rate; a field that was measured is taken as it is.
     """
     data, rate, rng = problem.data, problem.rate, np.random.default_rng(seed)
     size = rng.permuted(np.geomspace(0.05, largest, count))[:, None] * rate
@@ -224,8 +225,8 @@ def motions_of_arc(
 ) -> Iterator[tuple[FloatArray, int]]:
     """Yield pairs (x (n,), count): the best motions on the last arc of data about t = 0, and its number of data.
 
-    `starts` random motions, made with `seed` and fields up to `largest` rates, are refined on arcs that grow.
-    Nothing is yielded if all motions lose their phase, unless `is_last`.
+    `starts` random motions, made by `random` with `seed` and `largest`, are refined on arcs that grow. Nothing is
+    yielded if all motions lose their phase, unless `is_last`.
     """
     order = np.argsort(abs(problem.data.t), kind="stable")
     away = abs(problem.data.t[order]) * problem.rate

@@ -165,7 +165,7 @@ def picture(
 
 
 def slow_turn(motion: Any, length: float) -> float:
-    """Return the period 2 pi/|precession_rate| if the axis hardly moves in a time `length`, else 0.
+    """Return the period 2 pi/|precession_rate| if the axis hardly moves between t = 0 and `length`, else 0.
 
     The axis hardly moves if no component changes by MIN_SEEN_LENGTH. The result is 0 too where a motion has no such
     rate, or the rate is 0.
@@ -178,8 +178,9 @@ def slow_turn(motion: Any, length: float) -> float:
 def precessing(motion: Any, upright: Sequence[float]) -> Callable[[FloatArray], FloatArray]:
     """Return the function of times t (...) to the third axis (..., 3) that only precesses about `upright` (3,).
 
-    It starts at the motion's axis at t = 0. The rate is the mean rate of precession, so that the values are exact
-    after each whole nutation.
+    It starts at the motion's axis at t = 0. `upright`, of any length but 0, and the axis have components in the
+    laboratory. The rate is the motion's `precession_rate`, its mean, so that the values are exact after each whole
+    nutation.
     """
     n, start = np.asarray(upright) / np.linalg.norm(upright), motion.third_axis(0.0)
     parallel_part, rate = n * (n @ start), float(motion.precession_rate)
@@ -234,8 +235,8 @@ def period(motion: Any) -> float:
 def axis_period(motion: Any) -> float:
     """Return the time after which the third axis of one motion repeats up to a rotation about the field.
 
-    It is 2 pi/rate of a steady precession, with the sign of the rate, otherwise `period`, which may be infinite; 0
-    where there is none.
+    It is 2 pi/rate of a steady precession, with the sign of the rate, otherwise the motion's attribute `period`,
+    that of the nutation, which may be infinite; 0 where there is none, and for a steady precession of the rate 0.
     """
     if name := FAMILIES[motion.family].axis_rate:
         rate = getattr(motion, name)

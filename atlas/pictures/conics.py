@@ -26,10 +26,10 @@ def section(
 ) -> list[FloatArray]:
     """Return the curves (N, 3) in which (x, 1) Q (x, 1) = 0 meets the plane ``normal . x = distance``.
 
-    `quadric` is Q (4, 4). The curves end where they leave one of the `half_spaces`, rows (n1, n2, n3, d) for n . x
-    <= d. Without half spaces they reach at least as far as the `ball` (centre, radius). The section may be an
-    ellipse, hyperbola, parabola, two lines or one; a single point, or no point, gives an empty list. Curves are
-    sampled to `tolerance`, in the unit of x.
+    `quadric` is Q (4, 4); ``normal`` need not be a unit vector. The curves end where they leave one of the
+    `half_spaces`, rows (n1, n2, n3, d) for n . x <= d. Without half spaces they reach at least as far as the sphere
+    `ball`, a pair (centre, radius). The section may be an ellipse, hyperbola, parabola, two lines or one; a single
+    point, or no point, gives an empty list. Curves are sampled to `tolerance`, in the unit of x.
     """
     centre, radius = ball
     n = normal / np.linalg.norm(normal)
@@ -79,7 +79,7 @@ def _spans(
 
 
 def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> list[_Arc]:
-    """Return the arcs of l1 x^2 + l2 y^2 + 2 m1 x + 2 m2 y + c = 0, |l1| >= |l2|, out to about r.
+    """Return the arcs of l1 x^2 + l2 y^2 + 2 m1 x + 2 m2 y + c = 0, |l1| >= |l2|, out to about r from the origin.
 
     An arc is (function of s (N,) with values (x, y), first s, last s); a point or nothing gives [].
     """

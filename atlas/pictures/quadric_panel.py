@@ -208,7 +208,7 @@ def canonical(quadric: Quadric, reach: float, side_length: float) -> list[Layer]
     """Return layers of the canonical axes omega'_1..3, (53), the centre -B', and the angle beta/2 + pi/4.
 
     Each axis is an arrow that starts 0.35 ``side_length`` behind -B'. The axis of the sheets ends ``reach`` beyond -B',
-    the others ``side_length``. The angle runs from e2, drawn as a line, to omega'_2.
+    the others ``side_length``, both in 1/time. The angle runs from e2, drawn as a line, to omega'_2.
     """
     centre, axes = np.asarray(quadric.centre), np.asarray(quadric.axes)
     w = quadrics.sheet_axis(quadric)

@@ -35,10 +35,10 @@ def sheet_axis(quadric: Quadric) -> int:
 def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: float, role: str = "surface") -> Surface:
     """Return the part of the quadric between ``low`` and ``high`` along the axis of its sheets, from its centre.
 
-    ``Q`` (4, 4) is its matrix; lengths are in 1/time, chords within ``tolerance``. With D = (1, -1/a2, 1/a3),
-    negative for the axis w of the sheets, the cross section at w is the ellipse D_i x_i^2 + D_j x_j^2 = |D_w| w^2 +
-    (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the sheet is hyperbolic. It is cut
-    where its steepest and flattest meridians and its narrowest and widest rings bend.
+    ``Q`` (4, 4) is its matrix; lengths are in 1/time, chords within ``tolerance``. With D = (1, -1/a2, 1/a3), where a2
+    and a3 are those of `Quadric`, and D negative for the axis w of the sheets, the cross section at w is the ellipse
+    D_i x_i^2 + D_j x_j^2 = |D_w| w^2 + (1 - I) B2^2; ``low`` and ``high`` lie on one sheet. The parameter along the
+    sheet is hyperbolic. It is cut where its steepest and flattest meridians and its narrowest and widest rings bend.
     """
     D = np.array([1.0, -1.0 / quadric.a2, 1.0 / quadric.a3])
     w = sheet_axis(quadric)
@@ -86,8 +86,10 @@ def sheet(quadric: Quadric, Q: FloatArray, low: float, high: float, tolerance: f
 def profile(constant: float, slope: float, sign: float) -> tuple[_Line, _Line, Callable[[float], float]]:
     """Return functions (radius of s, height of s, s of height) along a sheet with radius^2 = constant - slope height^2.
 
-    The first two map s (N,) to (N,), the third a number to a number; `slope` is negative. Of two sheets the
-    functions are those of the sheet on the side of ``sign``; s is 0 within rounding of its vertex.
+    The first two map s (N,) to (N,), the third a number to a number; `slope` is negative. For `constant` > 0, one
+    sheet, radius and height grow as cosh s and sinh s, for any ``sign``. For `constant` < 0, two sheets, the functions
+    are those of the sheet whose heights have the sign of ``sign``; a height below that of its vertex, or above by
+    rounding, has s = 0. For `constant` = 0, a cone, s is the height itself, and the radius is negative for s < 0.
     """
     r, h = float(np.sqrt(abs(constant))), float(np.sqrt(abs(constant / slope)))
     if constant < 0.0:

@@ -132,7 +132,8 @@ def glass(view: View, pixel: float) -> Triangles:
     """Return the translucent surfaces of a panel as triangles in painting order, the farthest first.
 
     The result is (points (3 T, 3), normals (3 T, 3), colours (3 T, 4) as bytes red, green, blue, opacity); each three
-    rows are one triangle, anticlockwise as seen. ``pixel`` is the size of a pixel in the panel's unit.
+    rows are one triangle, anticlockwise as seen. Points, and ``pixel``, the size of a pixel, are in the scaled
+    coordinates of the view.
     """
     forms, numbers = distinct_forms(view.surfaces)
     painted, ranks = [], []

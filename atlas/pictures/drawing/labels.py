@@ -34,10 +34,11 @@ Ink: TypeAlias = tuple[FloatArray, float, int]
 class Tag:
     """A text of known ``extent`` (width, height) that belongs at ``anchor``; all lengths in printer's points.
 
-    ``offset`` is the preferred place of the text from the anchor; with (0, 0) the text is centred there and not moved.
-    ``elsewhere`` has further anchors, each at a higher cost than the one before. ``owner`` is the index of the layer
-    that the text names, -1 for none: the text should be nearer to that layer's lines and marks than to others. ``size``
-    is that of the type, ``colour`` that of the text.
+    ``anchor`` is (x, y) from the lower left corner of the axes, y upwards. ``offset`` is the preferred place of the
+    text from the anchor; with (0, 0) the text is centred there and not moved. ``elsewhere`` has further anchors,
+    each at a higher cost than the one before. ``owner`` is the index of the layer that the text names, -1 for none:
+    the text should be nearer to that layer's lines and marks than to others. ``size`` is that of the type,
+    ``colour`` that of the text.
     """
 
     text: str
@@ -56,10 +57,10 @@ def spot(tag: Tag) -> FloatArray:
 
 
 def _candidate_centres(tag: Tag, anchors: FloatArray, turns: FloatArray, steps: FloatArray) -> FloatArray:
-    """Return text centres (N, 2) beside anchors (N, 2), the tag's offset rotated and lengthened, in printer's points.
+    """Return text centres (N, 2) near anchors (N, 2), the tag's offset rotated and lengthened, in printer's points.
 
-    `turns` (N,) are the angles in rad, `steps` (N,) the added lengths. A tag with the offset (0, 0) stays at its
-    anchors.
+    `turns` (N,) are the angles in rad, `steps` (N,) the added lengths. Half of the text's size in that direction is
+    added too, so that its edge, not its centre, is at the offset. A tag with the offset (0, 0) stays at its anchors.
     """
     length = float(np.hypot(*tag.offset))
     if length == 0.0:
@@ -76,8 +77,8 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
     """Return the centre (2,) of each tag's text, in points: the cheapest candidate, chosen in two rounds.
 
     ``inks`` are (points (N, 2), cost of covering one, index of the layer): lines and marks to be kept free.
-    ``window`` is (left, bottom, right, top); texts should not leave it. Tags with the offset (0, 0) stay at their
-    anchors.
+    ``window`` is (left, bottom, right, top); texts should not leave it. All positions have the origin of the tags'
+    anchors, in printer's points. Tags with the offset (0, 0) stay at their anchors.
     """
     point_sets, *attributes = zip((np.empty((0, 2)), 0.0, NOBODY), *inks, strict=True)
     ink, counts = np.concatenate(point_sets), list(map(len, point_sets))

@@ -97,7 +97,7 @@ def _add_solids(plotter: pv.Plotter, view: View, pixel: float) -> None:
 
 
 def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterator[pv.PolyData]:
-    """Yield the meshes of a line (N, 3) drawn as tubes, one for each dash, with balls at its corners.
+    """Yield the meshes of a line (N, 3) drawn as tubes, one for each dash, with spheres at its sharp corners.
 
     `look` gives diameter and dashes, `pixel` is a pixel's size in the panel's unit. Nothing is yielded for a role
     without a tube.
@@ -120,7 +120,7 @@ def _tubes(points: FloatArray, look: Style, view: View, pixel: float) -> Iterato
 
 
 def _sides(radius: float) -> int:
-    """Return the number of sides, 8 or more, of a tube or ball whose `radius` is in pixels."""
+    """Return the number of sides, 8 or more, of a tube or sphere whose `radius` is in pixels."""
     return max(8, math.ceil(math.pi * math.sqrt(radius / (2.0 * _OFF))))
 
 
@@ -145,7 +145,7 @@ def _arrow(arrow: Arrow, look: Style, view: View, pixel: float) -> Iterator[pv.P
 
 
 def _ball(centre: FloatArray, look: Style, view: View, pixel: float) -> pv.PolyData:
-    """Return the mesh of a marked point, a ball about `centre` (3,) as wide as a tube of this ``look``.
+    """Return the mesh of a marked point, a sphere about `centre` (3,) as wide as a tube of this ``look``.
 
     ``pixel`` is a pixel's size in the panel's unit.
     """

@@ -37,7 +37,7 @@ class Placement:
     """Scale and position of a panel on paper, common to all frames of an animation.
 
     Scaled coordinates are (x - ``centre``)/``size``, of order one; ``scale`` is in printer's points per unit of these,
-    ``shift`` (2,) the position of their origin on paper, in points.
+    ``shift`` (2,) the position of their origin on paper, in points from the panel's lower left corner, y upwards.
     """
 
     centre: FloatArray
@@ -51,7 +51,8 @@ class View(Placement):
     """A panel with its projection to paper, in the scaled coordinates of `Placement`.
 
     ``panel`` is the panel in those coordinates; ``frame`` (3, 3) has the rows right, up, towards the eye; ``window`` is
-    the panel's (width, height) in points; ``tags`` are the names, anchored on paper.
+    the panel's (width, height) in points; ``tags`` are the names, anchored on paper. Positions on paper are (x, y) in
+    points from the panel's lower left corner, y upwards.
     """
 
     panel: Space
@@ -70,7 +71,10 @@ class View(Placement):
         return tuple(layer for layer in self.panel.layers if isinstance(layer, Surface))
 
     def on_paper(self, points: FloatArray) -> FloatArray:
-        """Return points (..., 3) in scaled coordinates as positions (..., 2) on paper, in printer's points."""
+        """Return points (..., 3) in scaled coordinates as positions (..., 2) on paper, in printer's points.
+
+        They are from the panel's lower left corner, y upwards. Points beyond the panel are not cut off.
+        """
         return self.scale * (points @ self.frame[:2].T) + self.shift
 
 
@@ -187,7 +191,9 @@ def _reach(flat: FloatArray, boxes: FloatArray, scale: float) -> tuple[FloatArra
 def dashes(points: FloatArray, look: Style, view: View) -> list[FloatArray]:
     """Return the dashes (M, 3) of a polyline (N, 3) as a list; [points] for a solid line.
 
-    Lengths of dashes and gaps are those of ``look``, in points on paper.
+    Both are in the scaled coordinates of `view`. The lengths of dashes and gaps in ``look``, in printer's points, are
+    measured along the line in space: a line seen obliquely has shorter dashes on paper. Ends of dashes are
+    interpolated, and corners of the polyline inside a dash are kept.
     """
     if not look.dash:
         return [points]
