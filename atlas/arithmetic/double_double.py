@@ -239,7 +239,8 @@ def over(
     ``formula`` takes as many numbers as there are inputs, of flint or `DoubleDouble`, and returns one, or a tuple if
     ``degree`` is a sequence. The result is a float for scalar inputs, an array of their common shape otherwise, a list
     of these for several degrees. The inputs ``unit`` share one unit, in which each result is homogeneous of its degree.
-    ``alone``, which takes and returns floats, replaces the evaluation in 256 digits where those do not suffice.
+    ``alone``, which takes and returns floats, replaces the evaluation in 256 binary digits, which
+    settles the results whose rounding the double-doubles leave open.
     """
     alone = alone or partial(numbers.alone, formula)
     if not any(np.ndim(x) for x in inputs):

@@ -17,8 +17,8 @@ MIN_THREAD_MATRICES = 100_000
 def shared(work: Callable[[int, int], None], count: int, grain: int, weight: int = 1) -> None:
     """Do work(low, high) for 0 to ``count``, in two threads, one for each half, if that pays.
 
-    It pays for `MIN_THREAD_MATRICES` matrices and two processors. ``grain`` units are done at once: the cut is a
-    multiple of it, so that no bit changes. ``weight`` is the number of matrices in one unit.
+    It pays for at least `MIN_THREAD_MATRICES` matrices and two processors. ``grain`` units are done at once: the
+    cut is a multiple of it, so that no bit changes. ``weight`` is the number of matrices in one unit.
     """
     half = (count // 2 + grain - 1) // grain * grain
     if half >= count or count * weight < MIN_THREAD_MATRICES or processors() < 2:

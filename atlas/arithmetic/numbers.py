@@ -77,7 +77,10 @@ class by_precision(Generic[Value]):  # noqa: N801  used as a decorator
 
 
 def rational(x: float | fmpq) -> fmpq:
-    """Return a float as an exact rational number; a rational number unchanged. Raises for an infinite float or NaN."""
+    """Return a float as an exact rational number; a rational number unchanged.
+
+    Raises OverflowError for an infinite float, ValueError for NaN.
+    """
     return x if isinstance(x, fmpq) else fmpq(*x.as_integer_ratio())
 
 
@@ -181,7 +184,9 @@ def alone(formula: Callable[..., Any], *inputs: float) -> Any:
 def rounded(function: Callable[..., Any], *inputs: Any) -> Any:
     """Return function(*inputs), evaluated in 256 binary digits, each result rounded once.
 
-    The result is a float, or a list of floats if the function returns several numbers.
+    Inputs are passed as they are: the function makes them exact numbers or balls. The result is a float, or a list of
+    floats if the function returns several numbers in a tuple or list. Of a ball the midpoint is rounded, whatever its
+    radius.
     """
     with workprec():
         values = function(*inputs)
@@ -189,7 +194,7 @@ def rounded(function: Callable[..., Any], *inputs: Any) -> Any:
 
 
 def nearest(x: fmpq | arb) -> float:
-    """Return the double nearest to a number; beyond the largest, inf of the same sign."""
+    """Return the double nearest to a rational or a ball's midpoint; beyond the largest, inf of the same sign."""
     if isinstance(x, arb):
         return float(x.mid())
     try:

@@ -49,7 +49,7 @@ class Basis:
         self.rows = np.empty((count, size))
 
     def at(self, t: FloatArray) -> FloatArray:
-        """Return the functions over SCALE, shape (count, m), at times t (m,), or indices of a `Progression`.
+        """Return the functions divided by SCALE, shape (count, m), at times t (m,), or indices of a `Progression`.
 
         Valid until the next call.
         """
@@ -259,9 +259,9 @@ def combinations(
 ) -> FloatArray:
     """Return weighted sums of the functions of `Basis` at times t, shape t.shape + ``shape``.
 
-    ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function over SCALE, so that 3 rows need one phase
-    and 9 or 11 two. ``out``, if given, is filled. Raises AtlasError for a time that is no number or a phase that is
-    too long.
+    ``weights`` (3, 9 or 11, prod(shape)) hold one row for each function; since `Basis` returns functions divided by
+    SCALE, a weight is SCALE times the coefficient. 3 rows need one phase, 9 or 11 two. ``out``, if given, is
+    filled. Raises AtlasError for a time that is no number or a phase that is too long.
     """
     times = t if type(t) is np.ndarray and t.dtype == np.float64 else real(t, "The time")
     if 0 < times.size <= FEW_TIMES:
@@ -284,7 +284,7 @@ def combinations(
 
 
 def functions_of_one(circle: list[tuple[float, float, float]], count: int) -> tuple[float, ...]:
-    """Return the first ``count`` functions of `Basis` over SCALE at one time, as floats.
+    """Return the first ``count`` functions of `Basis`, divided by SCALE, at one time, as floats.
 
     ``circle`` is the result of `Phases.circle_of_one`.
     """

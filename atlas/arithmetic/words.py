@@ -18,7 +18,7 @@ def exact(*numbers: Any) -> tuple[fmpq, ...]:
 
 
 def floats(numbers: Iterable[Number]) -> FloatArray:
-    """Return numbers, balls or rationals, as a float array (n,), each rounded once."""
+    """Return rationals, or the midpoints of balls, as a float array (n,), each rounded once."""
     return np.array([nearest(x) for x in numbers])
 
 

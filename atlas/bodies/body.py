@@ -88,11 +88,13 @@ class SymmetricBody(CarriesUncertainty):
         Moment along the symmetry axis, 0 <= I3 <= 2 I2, in the unit of `I2`.
     axes : ndarray, shape (3, 3)
         Principal axes as rows, the symmetry axis last, in the frame of the mass matrix; by default the unit matrix.
+        It is not checked that the rows are orthonormal.
 
     Attributes
     ----------
     exact : tuple
-        Moments (I2, I3) without rounding, as motions take them: of a Fraction, or of a shape by its dimensions.
+        Moments (I2, I3) without rounding, as motions take them: the doubles given, or exact numbers of a Fraction or
+        of a shape by its dimensions.
 
     Raises
     ------
@@ -103,7 +105,8 @@ class SymmetricBody(CarriesUncertainty):
 
     Notes
     -----
-    Moments, masses and dimensions broadcast. Functions that take a body take an array of bodies too.
+    Moments broadcast, and so do masses and dimensions in `sphere` and the other shapes. Inputs with standard deviations
+    give an `UncertainObject`. Functions that take a body take an array of bodies too.
 
     Examples
     --------
@@ -243,7 +246,7 @@ class SymmetricBody(CarriesUncertainty):
         radius : float or array_like
             Radius R > 0.
         height : float or array_like
-            Height h.
+            Height h >= 0.
 
         Returns
         -------
@@ -277,7 +280,7 @@ class SymmetricBody(CarriesUncertainty):
         radius : float or array_like
             Radius R > 0.
         height : float or array_like
-            Height h.
+            Height h >= 0.
         density : float or array_like, optional
             Density > 0, mass over length^3, in the place of the mass.
 
@@ -396,7 +399,7 @@ class SymmetricBody(CarriesUncertainty):
         equatorial : float or array_like
             Equatorial radius a > 0.
         polar : float or array_like
-            Polar radius c.
+            Polar radius c >= 0.
         density : float or array_like, optional
             Density > 0, mass over length^3, in the place of the mass.
 

@@ -107,5 +107,5 @@ def body_tensor(inertia: Any) -> FloatArray:
 
 
 def cofactors(J: FloatArray) -> FloatArray:
-    """Return the matrix det J J^-1 of a symmetric tensor (3, 3), in any floating type."""
+    """Return the matrix of cofactors, (det J) J^-1, of a symmetric tensor (3, 3), singular ones too, in its dtype."""
     return np.array([np.cross(J[1], J[2]), np.cross(J[2], J[0]), np.cross(J[0], J[1])])

@@ -72,7 +72,7 @@ def check_direction(n2: Number, n3: Number) -> None:
 
 
 def check_ball(inertia: Number) -> None:
-    """Raise DomainError for an inertia, a number or an array, that is not positive."""
+    """Raise DomainError for an inertia of a solid ball, a number or an array, that is not positive."""
     refuse(inertia <= 0, "The inertia of a ball must be positive, not {}.", inertia)
 
 

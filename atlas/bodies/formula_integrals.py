@@ -15,8 +15,9 @@ def integrals(
 ) -> tuple[Number, Number, Number, Number]:
     """Return E', (36), K^2, (37), c3, (40), and c5, (41), of a state Omega, K in the body, in 1/time.
 
-    ``I`` is I3/I2; ``factors`` are 1 - I and 2 - I where they have lost no digit. c5 is written as
-    Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is gone and I = 1 exact.
+    E', K^2 and c5 are in 1/time^2, c3 is in 1/time. ``I`` is I3/I2; ``factors`` are 1 - I and 2 - I where they have
+    lost no digit. c5 is written as Omega1 K1 + Omega2 K2 + Omega3 [(1 - I) Omega3 + (2 - I) K3], in which c3 is
+    gone and I = 1 exact.
 
         >>> integrals(1, (0, 2, 3), (0, 5, 7))
         (13, 74, 10, 31)

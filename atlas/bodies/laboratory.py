@@ -40,13 +40,13 @@ TERMS = 16
 
 
 def greatest_charge(radius: Any, surface_field: float) -> float:
-    """Return the charge 4 pi eps0 r^2 E, in C, of a ball (radius in m) that makes the field E (V/m) at its surface."""
+    """Return the charge 4 pi eps0 r^2 E, in C, of a sphere (radius in m) with the field E (V/m) at its surface."""
     r, E = positive(radius, "The radius"), positive(surface_field, "The surface field")
     return 4 * pi * ELECTRIC_CONSTANT * r * r * E
 
 
 def greatest_ratio(radius: Any, density: Any, surface_field: float) -> float:
-    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of a ball whose charge makes the field E at its surface.
+    """Charge-to-mass ratio 3 eps0 E/(rho r), in C/kg, of a sphere whose charge makes the field E at its surface.
 
     `radius` r is in m, `density` rho in kg/m^3, `surface_field` E in V/m.
     """
@@ -80,7 +80,7 @@ def quadrupole_power(mu: Any, moments: tuple[float, float], angle: Any, rate: An
     `mu` is in C/kg, the moments in kg m^2. The cone has the half-angle ``angle`` in rad and is run with the frequency
     ``rate`` k in rad/s. With D = mu (I2 - I3)(3 n n - 1) the power is |d^3 D/dt^3|^2/(720 pi eps0 c_0^5) =
     mu^2 (I2-I3)^2 k^6 s^2 (16 s^2 + c^2)/(40 pi eps0 c_0^5), with s and c the sine and cosine of the angle and c_0 the
-    speed of light. A ball has none.
+    speed of light. The power of a sphere is 0.
     """
     I2, I3 = moments
     s, c = sin(angle), cos(angle)
@@ -104,9 +104,9 @@ def diamagnetic_energy(susceptibility: Any, volume: Any, B: Any, shape: str) -> 
 def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian: bool = False) -> float:
     """Return the polarizability along the axis of an ellipsoid less that across it: moments that a unit field induces.
 
-    V chi/(mu_0 (1 + chi N)) in each direction, with ``volume`` V in m^3, ``susceptibility`` chi strong or weak,
-    ``demagnetization`` N along the axis and (1 - N)/2 across it; Gaussian V chi/(1 + 4 pi chi N), V in cm^3.
-    DomainError for N outside 0...1 or a chi that no body has there.
+    In A m^2/T, Gaussian in cm^3: V chi/(mu_0 (1 + chi N)) in each direction, with ``volume`` V in m^3,
+    ``susceptibility`` chi strong or weak, ``demagnetization`` N along the axis and (1 - N)/2 across it; Gaussian V
+    chi/(1 + 4 pi chi N), V in cm^3. DomainError for N outside 0...1 or a chi that no body has there.
     """
     unit, chi = (4 * pi, 4 * pi) if gaussian else (MAGNETIC_CONSTANT, 1.0)
     chi *= number(susceptibility, "The susceptibility")
@@ -123,13 +123,13 @@ def anisotropy(susceptibility: Any, volume: Any, demagnetization: Any, gaussian:
 def demagnetization(aspect: float) -> float:
     """Return the demagnetizing factor N3 along the axis of a spheroid; ``aspect`` is polar over equatorial semi-axis.
 
-    1/3 of a ball; N3 + 2 N2 = 1.
+    It is 1/3 for a sphere, and N3 + 2 N2 = 1 with the factor N2 across the axis.
     """
     return (1 - 2 * demagnetization_difference(aspect)) / 3
 
 
 def demagnetization_difference(aspect: float) -> float:
-    """Return N2 - N3 of a spheroid, factors across and along its axis, with the sign of ``aspect`` - 1; 0 of a ball.
+    """Return N2 - N3 of a spheroid, factors across and along its axis, with the sign of ``aspect`` - 1; 0 for a sphere.
 
     ``aspect`` is the polar over the equatorial semi-axis.
     """

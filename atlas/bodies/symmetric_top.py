@@ -57,8 +57,9 @@ def moments_of_one(body: Any) -> tuple[Any, Any]:
 
 
 def along(field: tuple[float, float], weight: Any) -> fmpq:
-    """Return the component of the weight (w2, w3) along the field (B2, B3), a rational to 256 binary digits.
+    """Return |weight| with the sign of (weight, field), for a weight (w2, w3) parallel to the field (B2, B3).
 
+    The result is a rational to 256 binary digits, in the unit of the weight, for a quantity of pint or astropy in SI.
     Raises DomainError where the weight is not parallel to the field.
     """
     w2, w3 = (number(x, "A component of the weight") for x in components(weight, ("w2", "w3"), "The weight", ENERGY))

@@ -91,7 +91,7 @@ Oval = Literal["bounded", "unbounded"]
 class Stretch:
     """Elliptic motions with z from `low` to `high` on one oval, "bounded" or "unbounded": all stable or all unstable.
 
-    `branch`, 1 or -1, is the sign of v = branch sqrt(P(z)).
+    z and the cubic P are those of the module; `branch`, 1 or -1, is the sign of v = branch sqrt(P(z)).
     """
 
     oval: Oval
@@ -105,7 +105,7 @@ class Stretch:
 class Spin:
     """A spin about principal axis 0, 1 or 2 along the field: its constants `F`, `H`, and the `kind` of motions near it.
 
-    F and H are Clebsch's integral and the energy, see `atlas.clebsch`.
+    F is Clebsch's integral and H the Hamiltonian, kinetic energy plus (M, K); see `atlas.clebsch`.
     """
 
     axis: int
@@ -117,7 +117,7 @@ class Spin:
 class Bifurcation:
     """The critical values of (F, H) of a body ``inertia`` (I1, I2, I3), all different, at b > 0 and c.
 
-    F is Clebsch's integral and H the energy, see `atlas.clebsch`. b = |B'| is in 1/time, and c = (M, K) the
+    F is Clebsch's integral and H the Hamiltonian, see `atlas.clebsch`. b = |B'| is in 1/time, and c = (M, K) the
     canonical momentum along the field times b. For c = 0, Neumann's and Weber's case, the curve is a piece of a
     parabola, of the bounded oval, and the `rays` of the plane pendulums. Raises DomainError for moments that no
     body has or of which two are equal.

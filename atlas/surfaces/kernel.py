@@ -349,7 +349,7 @@ class TopQuadric(Quadric):
 
     @kept
     def centre(self) -> FloatArray:
-        """Centre (0, omega2, omega3) of the surface, w = v = 0, shape (..., 3), in 1/time."""
+        """Centre (0, omega2, omega3) of the surface, w = v = 0, shape (..., 3), in rad/time; for n2 = 0 too."""
         second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
         return np.stack(np.broadcast_arrays(0.0, second, third), -1)
 

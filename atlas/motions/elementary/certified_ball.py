@@ -12,7 +12,7 @@ from atlas.motions.elementary import formula_ball as ball
 
 
 class BallMotion:
-    """The ball with inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3.
+    """Motion of a solid ball of inertia I0, Larmor frequency alpha (27) and m(0) = (0, m2, m3), the field along e3.
 
     The inputs, exact, are I0 > 0, alpha in rad/time and (m2, m3) in inertia/time. DomainError for another inertia.
     """

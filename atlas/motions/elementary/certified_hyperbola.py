@@ -34,7 +34,10 @@ class Hyperbola(BodyInField):
 
     @property
     def special(self) -> dict[str, tuple[fmpq, fmpq]]:
-        """Points (omega2, omega3) by name, in rad/time: rest, -2 B' (phi = 0 at both), and the other zero of omega3."""
+        """Points (omega2, omega3) in rad/time: rest, -2 B' (phi = 0 at both), and the other zero of omega3.
+
+        Their names are "omega2 = 0", "omega2 = -2 B2" and "omega2 = -(2-I) B2".
+        """
         zero = fmpq(0)
         return {
             "omega2 = 0": (zero, zero),

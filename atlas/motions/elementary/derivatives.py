@@ -95,7 +95,8 @@ def among_all(
 ) -> Inputs:
     """Return the `Inputs` of motion number ``i`` of a placed ``motion`` as a general motion of its body.
 
-    ``scalars``, functions by name, are those of the motion's own family. Vectors are along ``axes`` (..., 3, 3),
+    ``scalars``, the functions by name that take the certified general motion, give the scalars of the motion's own
+    family. Vectors are along ``axes`` (..., 3, 3),
     rows given in the body; without ``axes``, along the axes of the class.
     """
     row, shape = motion._row(i), (*motion.shape, 3)  # noqa: SLF001  of the same folder
@@ -142,7 +143,7 @@ def of_free(motion: Any, i: int) -> Inputs:
 
 
 def of_ball(motion: Any, i: int) -> Inputs:
-    """Return the `Inputs` of the i-th ball: inertia, larmor, m2 and m3, the field along e3.
+    """Return the `Inputs` of the i-th solid ball: inertia, larmor, m2 and m3, the field along e3.
 
     A placed motion has those of a general motion, with vectors along the body's axes.
     """

@@ -30,7 +30,7 @@ from atlas.motions.start import Start
 
 
 class Ball(DoubleRotation):
-    """Evaluator of one ball: R = R_z(-alpha t) R_k(-gamma t), the transpose of R_k(gamma t) R_z(alpha t), (28).
+    """Evaluator of one solid ball: R = R_z(-alpha t) R_k(-gamma t), the transpose of R_k(gamma t) R_z(alpha t), (28).
 
     The inputs are numbers taken as exact: inertia, alpha (rad/time), m2 and m3. `vectors` has "m" and "Omega" at t = 0.
     """

@@ -148,7 +148,12 @@ class Hyperbola(Shown):
 
     @property
     def special(self) -> dict[str, tuple[float, float]]:
-        """Points (omega2, omega3) of (67) by name, in rad/time: rest, -2 B' (phi = 0), and the other zero of omega3."""
+        """Points (omega2, omega3) of (67) in rad/time: rest, -2 B' (phi = 0), and the other zero of omega3.
+
+        Notes
+        -----
+        Their names are "omega2 = 0", "omega2 = -2 B2" and "omega2 = -(2-I) B2".
+        """
         I2, I3, B2, _ = self._exact
         zero = (I3 - I2 - I2) * B2 / I2
         return {
@@ -290,8 +295,8 @@ class Hyperbola(Shown):
         Returns
         -------
         GeneralMotion
-            Motion with its `period` and `turning_points`. In the unstable band Omega3 moves to the next root of Q and
-            back.
+            Motion with its `period` and `turning_points`. In the unstable band Omega3 moves to the next root of
+            the quartic Q, Q(Omega3) = (dOmega3/dt)^2, and back.
 
         Raises
         ------

@@ -44,7 +44,7 @@ class Flight(Shown):
     Raises
     ------
     AtlasError
-        If the field of `motion` differs from the particle's B' by more than 1e-9.
+        If the field of `motion` differs from the particle's B' by more than 1e-9 of its largest component.
 
     Notes
     -----

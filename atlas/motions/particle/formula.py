@@ -124,7 +124,7 @@ def position(v: Any, a: Any, t: Number, s: Number, f: Number, g: Number, h: Numb
     """Return one component of y(t) - y(0), (101) with (93) and (98).
 
     ``v`` and ``a`` are that component of the three parts of velocity and acceleration; s, f, g, h are the functions of
-    `Gyration` at the phase |w| t.
+    `rows.Gyration` at the phase |w| t, w = mu B/c.
     """
     return t * (v[0] + s * v[1] + g * v[2] + t * (a[0] / 2 + f * a[1] + h * a[2]))
 

@@ -35,7 +35,8 @@ MIN_ARGUMENT = 2.0**-500
 class Gyration:
     """Functions of the phase x = |w| t, arrays (m,), each to a few ulp of its own size.
 
-    cos x and sin x are right to an ulp of 1 where they are small.
+    s = sin(x)/x, f = (1 - cos x)/x^2, g = (1 - cos x)/x, h = (x - sin x)/x^2, at x = 0 the limits 1, 1/2, 0, 0. cos
+    x and sin x are right to an ulp of 1 where they are small.
     """
 
     cos: FloatArray
@@ -84,9 +85,10 @@ TOO_LARGE = {
 
 
 class Charge:
-    """Particles: `inputs` are mu, c and the components of E, B, velocity and position, floats or arrays (m,).
+    """Particles: `inputs` are mu, c and the components of E, B, velocity and position, in this order.
 
-    `force` says where mu and B are not zero, `driven` where mu and E are not. Raises DomainError where mu E overflows.
+    Each of the fourteen is a float or an array (m,). `force` says where mu and B are not zero, `driven` where mu and E
+    are not. Raises DomainError where mu E overflows.
     """
 
     def __init__(self, inputs: Sequence[Any]) -> None:

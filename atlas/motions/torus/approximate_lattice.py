@@ -60,13 +60,13 @@ PAIRS = tuple(combinations(range(4), 2))
 
 @dataclass(frozen=True)
 class Lattice:
-    """Periods of the torus, each a list [T_H, T_F, T_c] of complex balls in the unit of time; nothing of it is proved.
+    """Periods of the torus, each a list [T_H, T_F, T_c] of complex balls, T_F in time/inertia; nothing is proved.
 
     `real` are two that generate the real periods, `other_periods` two that complete them to a basis of all. The
-    symplectic basis is (a1, a2, b1, b2); `a` holds the first two, `b` the others. T_c is the time by which R turns
-    about the field by
-    -b T_c. `paths` are triples (start u, stop u, T_H) of the paths that were integrated, and `weights` four rows of
-    integers, by which their integrals sum to a1, a2, b1, b2.
+    symplectic basis is (a1, a2, b1, b2); `a` holds the first two, `b` the others. T_H and T_c are in the unit of
+    time; in a period the attitude turns about the field by the angle -b T_c, b = |B'|. `paths` are triples (start
+    u, stop u, T_H) of the paths that were integrated, and `weights` four rows of integers, by which their integrals
+    sum to a1, a2, b1, b2.
     """
 
     real: tuple[list[acb], list[acb]]
@@ -80,7 +80,7 @@ class Lattice:
 
     @property
     def X(self) -> acb_mat:
-        """Period matrix (2, 2), in the unit of time: columns are the cycles a1 and a2/2, rows the times T_H and T_F."""
+        """Period matrix (2, 2): columns are the cycles a1 and a2/2, rows T_H in time and T_F in time/inertia."""
         (p, q, _), (r, s, _) = self.a
         return acb_mat([[p, r / 2], [q, s / 2]])
 
@@ -96,8 +96,8 @@ class Lattice:
 def lattice(motion: Integrals) -> Lattice:
     """Return the periods of a motion's torus as a `Lattice`, computed along paths with `BITS` digits, not proved.
 
-    ``motion`` are the `Integrals` of the motion. Raises NotCertifiedError for a body too near a ball, and where periods
-    cannot be distinguished.
+    ``motion`` are the `Integrals` of the motion. Raises NotCertifiedError for three moments that are nearly
+    equal (`NEARLY_A_BALL`), and where periods cannot be distinguished.
     """
     if max(motion.moments) - min(motion.moments) < NEARLY_A_BALL * max(motion.moments):
         raise NotCertifiedError("not certified: the body is so nearly a ball that its slowest period is not found.")
@@ -150,7 +150,7 @@ def _of_ways(ways: list[list[acb]]) -> Lattice:
 
 
 def _real(period: Sequence[acb]) -> list[arb]:
-    """Return [Re T_H, Im T_H, Re T_F, Im T_F] of a period [T_H, T_F, T_c], balls in the unit of time."""
+    """Return [Re T_H, Im T_H, Re T_F, Im T_F] of a period [T_H, T_F, T_c], four balls in the units of `Lattice`."""
     return [period[0].real, period[0].imag, period[1].real, period[1].imag]
 
 

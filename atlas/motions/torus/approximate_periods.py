@@ -64,7 +64,8 @@ Array = NDArray[np.complex128]
 class Integrals:
     """The exact integrals of a motion, rationals: `moments`, H, F, c = (M, K) and `square` = K^2.
 
-    H and F are those of theorem-clebsch, M = II (Omega + K).
+    H = (M, II^-1 M)/2 + (K, II K)/2 and F = M^2 - D (K, II^-1 K), theorem-clebsch, with the canonical momentum
+    M = II (Omega + K), the field K along the body's axes and D = I1 I2 I3.
     """
 
     moments: tuple[fmpq, ...]
@@ -161,7 +162,7 @@ class Curve:
         self.zeros = [self._place(z, v) for z, v in motion.zeros()]
 
     def _periods(self, cells: int) -> list[tuple[acb, acb]]:
-        """Return periods of z(u) as pairs (real, imaginary) of complex balls, up to `cells` cells each way."""
+        """Return pairs (m real, n imaginary), complex balls, for integers |m|, |n| <= ``cells``."""
         line = range(-cells, cells + 1)
         return [(m * self.real, n * self.imaginary) for m, n in product(line, repeat=2)]
 
@@ -237,8 +238,8 @@ class Curve:
     def intervals(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield subintervals (low, high) of (0, 1) on a path whose ellipses hold no other zero or pole, in order.
 
-        The unit is pi in s, u = start + (stop - start)(1 - cos s)/2. Raises NotCertifiedError where zeros are too
-        close.
+        An ellipse has its foci in the ends of the subinterval. The unit is pi in s, u = start + (stop - start)(1 -
+        cos s)/2. Raises NotCertifiedError where zeros are too close.
         """
         starts, stops = (
             np.asarray(2 * np.arcsin(np.sqrt(x)) / np.pi, complex) for x in self._other_places(start, stop)
@@ -249,9 +250,9 @@ class Curve:
     def nodes(self, start: acb, stop: acb) -> Iterator[tuple[arb, arb]]:
         """Yield pairs of balls: places s on a path, and the weights of a rule of integration in s from 0 to pi.
 
-        u = start + (stop - start)(1 - cos s)/2. As sin s/eta is even and periodic in s, the rule of midpoints
-        leaves out exp(-2 count rate), 2^-BITS. Where another zero, or the pole of z, is so near that this takes
-        more places, the rule is Gauss's on shorter parts: as many as the distance has digits.
+        u = start + (stop - start)(1 - cos s)/2. As sin s/eta, eta^2 = Psi, is even and periodic in s, the rule of
+        midpoints leaves out 2^-BITS with enough nodes. Where another zero, or the pole of z, is so near that this
+        takes more places, the rule is Gauss's on shorter parts: as many as the distance has digits.
         """
         intervals = list(self.intervals(start, stop))
         count = ceil(BITS * log(2) / (2 * _elliptic(*self._other_places(start, stop)).real.min()))
@@ -267,8 +268,8 @@ class Curve:
     def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return (T_H, T_F, T_c), -2i times the integrals of D, z and v du/eta along a path, as complex balls.
 
-        ``start`` and ``stop`` are zeros u; the balls have radius 0. The sign, which all three share, is arbitrary.
-        Raises NotCertifiedError where the integrals lose all digits.
+        eta^2 = Psi, see the module. ``start`` and ``stop`` are zeros u; the balls have radius 0. The sign, which
+        all three share, is arbitrary. Raises NotCertifiedError where the integrals lose all digits.
         """
         way, g = stop - start, acb_poly(self.g)
         sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None
@@ -312,8 +313,8 @@ def rule(nodes: int, bits: int) -> list[tuple[arb, arb]]:
 def _intervals(starts: Array, stops: Array) -> Iterator[tuple[arb, arb]]:
     """Yield subintervals (low, high) of (0, 1) in order whose ellipses contain no singular point.
 
-    `starts` (n,) are the complex points as fractions from 0, `stops` as fractions from 1 backwards. Raises
-    NotCertifiedError where a point is too near the path.
+    An ellipse has its foci in the ends of the subinterval. `starts` (n,) are the complex points as fractions from
+    0, `stops` as fractions from 1 backwards. Raises NotCertifiedError where a point is too near the path.
     """
     if not starts.size:
         yield arb(0), arb(1)

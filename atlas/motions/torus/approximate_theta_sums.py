@@ -95,9 +95,10 @@ def weights_at(forms: Sequence[Form], hat: acb_mat, origin: Sequence[acb], place
 class Sums:
     """Forms at v = origin + x/pi, as functions of complex x (2, m) in doubles, over a common exponential.
 
-    `table` (forms, P, Q) are their weights; `region` (2, n), places x, tells which of them matter. ``hat`` (2, 2)
-    is the matrix of the theta functions. The Q of a form are all even or all odd, counted from the middle of the
-    table: so forms of each parity are summed over half of them.
+    That is exp(i (centre, x)), `centre` the pair (P, Q) in the middle of the table. `table` (forms, P, Q) are their
+    weights; `region` (2, n), places x, tells which of them matter. ``hat`` (2, 2) is the matrix of the theta
+    functions. The Q of a form are all even or all odd, counted from the middle of the table: so forms of each
+    parity are summed over half of them.
     """
 
     def __init__(self, hat: acb_mat, forms: Sequence[Form], origin: Sequence[acb], region: Array) -> None:

@@ -323,10 +323,10 @@ class AsymmetricMotion:
 
     @property
     def elliptic(self) -> EllipticMotion | None:
-        """The `EllipticMotion` with this attitude; None where there is none.
+        """The `EllipticMotion` with this attitude; for a free body, a spin along a field and rest an `EulerTop`.
 
-        For a free body, and for a spin about a principal axis, it is an `EulerTop`, with the angular momentum in
-        place of a field.
+        An `EulerTop` has the angular momentum in the place of a field. None on a torus, on the discriminant, and for
+        two equal moments in a field.
         """
         if isinstance(self._motion, EllipticMotion):
             return self._motion
@@ -384,7 +384,7 @@ class AsymmetricMotion:
 
     @property
     def precession_rate(self) -> Real:
-        """Mean angular velocity about the momentum of a free body, or about B, in rad/time, a ball or a rational.
+        """Mean angular velocity about the momentum of a free body, or about B', in rad/time, a ball or a rational.
 
         It is the rate of the body's axis about which the momentum, or K, goes. Raises DomainError for motions without a
         period.
@@ -414,10 +414,13 @@ class AsymmetricMotion:
     def frequencies(self) -> list[Real]:
         """Angular frequencies [f1, f2, f3] in rad/time of a motion on a torus, of a free body or of an elliptic motion.
 
-        M and K turn with f1 and f2, and R with f3 about B besides. On a torus it is a convention which basis f1, f2
-        are, and f3 is one but for integer multiples of them: in a period the body turns by at most half a turn about B
-        beside -B'. Without a torus f1 = |spin_rate|, f2 = 0 and f3 = precession_rate, about the momentum of a free
-        body. Raises DomainError where there are none, and where no periods are proved.
+        R = R_B(f3 t) S(f1 t, f2 t), with S of period 2 pi in both phases; M = II (Omega + K) and the field K along the
+        body's axes depend on f1 t and f2 t alone. On a torus the basis f1, f2 is a convention, and f3 is defined up to
+        integer multiples of both: it is the one for which the body, seen from the frame that rotates with -B', turns
+        about the field by at most half a turn in each of the two periods of the torus. Without a torus
+        f1 = |spin_rate|, f2 = 0 and f3 = precession_rate, about the momentum of a free body. Raises DomainError for
+        other motions: at rest or in a spin in a field, with two equal moments in a field, and "on the discriminant";
+        also where no periods are proved.
         """
         if self.on_torus is None:
             motion = self.elliptic
@@ -436,12 +439,12 @@ class AsymmetricMotion:
 
     @property
     def H(self) -> fmpq:
-        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K): exact, in inertia/time^2."""
+        """H = (M, II^-1 M)/2 + (K, II K)/2, M = II (Omega + K), K the field in the body: exact, in inertia/time^2."""
         return self.invariants.H
 
     @property
     def F(self) -> fmpq:
-        """Clebsch's F = M^2 - D (K, II^-1 K), D the product of the moments: exact, in inertia^2/time^2."""
+        """Clebsch's F = M^2 - I1 I2 I3 (K, II^-1 K), exact, in inertia^2/time^2; M and K are those of `H`."""
         return self.invariants.F
 
     @property
@@ -462,6 +465,6 @@ class AsymmetricMotion:
 
 
 def _power(x: fmpq) -> fmpq:
-    """Return the power of two next to a positive rational x, within a factor of two."""
+    """Return a power of two y with x/2 < y < 2 x, for a positive rational x; of a power of two itself."""
     exponent = int(x.p).bit_length() - int(x.q).bit_length()
     return fmpq(2) ** exponent if exponent >= 0 else fmpq(1, 2**-exponent)

@@ -59,9 +59,9 @@ ELLIPSE_BALLS, MIN_TURN_PART = 64, 2.0**-12
 def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
     """Return, for each of the cycles a1, a2, b1, b2, the integrals [T_H, T_F, T_c, S] as complex balls.
 
-    ``motion`` are the motion's `Integrals`. S, the integral of eta du, is 2 pi times an action, and dS = T_H dH +
-    T_F d(F/2) + T_c dc. Which paths make a cycle is taken from the ``lattice``, unproved. Raises NotCertifiedError
-    where an integral is not proved.
+    ``motion`` are the motion's `Integrals`. S, the integral of eta du, eta^2 = Psi, is 2 pi times an action, and dS
+    = T_H dH + T_F d(F/2) + T_c dc. Which paths make a cycle is taken from the ``lattice``, unproved. Raises
+    NotCertifiedError where an integral is not proved.
     """
     with workprec(int(ctx.prec) + GUARD_BITS):
         curve, rough = Curve(motion, proven=True), Curve(motion)
@@ -111,9 +111,9 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
 def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> list[acb]:
     """Return four complex balls: -2i times the integrals of (D, z, v) du/eta and eta du between two zeros.
 
-    The zeros are those next to the places ``start`` and ``stop``; ``rough`` is the same curve without radii. The
-    sign of all four is the one for which the first is nearer to ``like`` than to its negative. Raises
-    NotCertifiedError where an integrand has no bound.
+    Here eta^2 = Psi, see the module. The zeros are those next to the places ``start`` and ``stop``; ``rough`` is
+    the same curve without radii. The sign of all four is the one for which the first is nearer to ``like`` than to
+    its negative. Raises NotCertifiedError where an integrand has no bound.
     """
     start_zero, stop_zero, D, c = _zero_at(curve, start), _zero_at(curve, stop), curve.motion.D, curve.motion.c
     g, dg, dP = curve.g, curve.g.derivative(), curve.motion.P.derivative()

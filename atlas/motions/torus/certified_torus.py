@@ -51,7 +51,7 @@ NEWTON_ROUNDS = 4
 class Period:
     """A period of a `Torus`: after the flow of H for a time and then that of F/2 for another, M and K are back.
 
-    `H` and `F` are these times, which the two flows have in units of their own; `angle` is the angle in rad by which
+    `H`, in the unit of time, and `F`, in time/inertia, are these times; `angle` is the angle in rad by which
     the rotation S = R_B(bt) R has then turned about the field, known up to whole turns. All three are balls.
     """
 
@@ -99,7 +99,7 @@ class Torus:
     def is_long(self) -> bool:
         """Whether a period is so long that to prove the motion's formulas would take minutes.
 
-        False if no period is known.
+        Its `Flow.length` is then above `MAX_LENGTH`. False if no period is known.
         """
         try:
             return any(self.flow.length(H, F) > MAX_LENGTH for H, F in self._approximate())
@@ -130,7 +130,7 @@ class Torus:
     def spin(self) -> int | None:
         """Axis (0, 1 or 2) about which the body spins, along the field, up to pushes as small as rounding.
 
-        None elsewhere.
+        None for any other state.
         """
         sizes = [max(abs(w), abs(k)) for w, k in zip(self.W, self.K, strict=True)]
         axis = sizes.index(max(sizes))
@@ -140,7 +140,7 @@ class Torus:
     def pushed(self) -> list[tuple[float, float]] | None:
         """Approximate periods (T_H, T_F) of the two small oscillations next to a stable spin, a list of two pairs.
 
-        None elsewhere, and next to an unstable spin.
+        None for a state that is not next to a spin, see `spin`, and next to an unstable spin.
         """
         if self.spin is None:
             return None

@@ -73,7 +73,7 @@ class TorusVaried:
     def of_frequencies(self) -> FloatArray:
         """Derivatives of the frequencies f1, f2 and f3 (rad/time) in each of the inputs: shape (inputs, 3).
 
-        f3 is the frequency for which the angles of the periods are least.
+        The frequencies are those of `AsymmetricMotion.frequencies`, which tells the choice of f3.
         """
         turns = [round(float(x.angle.mid()) / (2 * np.pi)) for x in self.kernel.periods]
         return np.column_stack([self.d_frequencies[:, :2], self.d_frequencies @ [-turns[0], -turns[1], 1]])

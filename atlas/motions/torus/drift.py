@@ -187,7 +187,7 @@ class TorusGrid:
         raise LostTorusError("no torus")
 
     def _times(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return (times a along the flows per unit of each angle, det a), (angles, flows, n1, n2) and (n1, n2).
+        """Return (flow times a per radian of each phase, (phases, flows, n1, n2); determinant of a, (n1, n2)).
 
         x (6, n1, n2) are the states. Raises LostTorusError where the flows are parallel.
         """
@@ -273,7 +273,7 @@ class TorusGrid:
     def change(self, growth: float, drag: FloatArray) -> FloatArray:
         """Return the mean rates of the integrals, (r,), in scaled units, for a growth rate of the field and a drag.
 
-        The drag (3,) has the rates along the principal axes.
+        Both are in units of `rate`; the drag (3,) has the rates along the principal axes.
         """
         M, K = np.split(self.x, 2)
         push = np.concatenate([-drag[:, None, None] * (M - self.I * K), growth * K])

@@ -259,8 +259,8 @@ def forget() -> None:
 class AsymmetricMotion(Motion[SingleAsymmetric]):
     """Motion of a charged body with any inertia tensor, from any start, theorem-clebsch (not in the paper).
 
-    The motion starts from R(0) = 1. The body is Clebsch's integrable case: M and K move on a torus with two commuting
-    flows.
+    The motion starts from R(0) = 1. The body is Clebsch's integrable case: M = II (Omega + K) and the field K = R^T B'
+    in the body move on a torus with two commuting flows.
 
     Parameters
     ----------
@@ -452,9 +452,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
         Notes
         -----
-        On a torus M and K have the frequencies f1 and f2; R has f3, about B, in addition. The basis f1, f2 is a
-        convention, and f3 is defined up to integer multiples of both. For a free body and an elliptic motion f1 =
-        |spin_rate|, f2 = 0 and f3 = precession_rate.
+        On a torus M and K have the frequencies f1 and f2; R has f3, about B', in addition. The basis f1, f2 is a
+        convention, and f3 is defined up to integer multiples of both: seen from the frame that rotates with -B',
+        the body turns about B' by at most half a turn in each of the two periods of the torus. For a free body and
+        an elliptic motion f1 = |spin_rate|, f2 = 0 and f3 = precession_rate.
         """
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
@@ -482,7 +483,10 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         return of_asymmetric(self._single(i))
 
     def _dynamics(self) -> Any:
-        """Return (moments, coupling, linear, quadratic) of one motion: coupling equal to the moments, no potential."""
+        """Return (moments (3,), coupling (3,), linear, quadratic) of one motion as a top: the coupling is the moments.
+
+        The coefficients of the potential, linear and quadratic, are 0.
+        """
         J = np.array(self.inertia)
         return J, J, 0.0, 0.0
 

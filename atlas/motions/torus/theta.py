@@ -218,8 +218,9 @@ class ThetaKernel:
     def on_torus(self, phases: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return (S (m, 3, 3), Omega (m, 3), K (m, 3)) at phases (2, m) in rad, R(t) = R_B(f3 t) S(f1 t, f2 t).
 
-        Omega is in rad/time, K in 1/time. f3 is defined up to multiples of f1 and f2; here it is the one for which
-        the angles of the periods are least.
+        Omega is in rad/time, K in 1/time. f3 is defined up to multiples of f1 and f2: it is that of
+        `AsymmetricMotion.frequencies` in `certified`, and differs from the third of `frequencies` by whole turns of
+        the `angle` of each `Period`.
         """
         half = np.concatenate([(phases + np.pi) % (2 * np.pi) - np.pi, np.zeros((1, phases.shape[1]))]) / 2
         for x, period in zip(half[:2], self.periods, strict=True):
