@@ -29,6 +29,7 @@ class Asked:
     family    the family of the object
     options   the options that say which object it is, each with the typed words, by name
     body, field   their records in a report file, where the family has them; `time` is the unit of time
+    magnetic  charge-to-mass ratio in C/kg and strength of B in T, where B was given in SI
     units     the system of units, si or gaussian, of a family whose parameters have different units
     values    the other parameters of the family by name; `exact` those that no floats hold, as fractions in text
     digits    significant digits of the tables; `title` that was asked for, "" for one made from the object
@@ -45,6 +46,7 @@ class Asked:
     values: Mapping[str, Any]
     body: Mapping[str, Any] | None = None
     field: Mapping[str, Any] | None = None
+    magnetic: tuple[float, float] | None = None
     time: str = "time"
     units: str = ""
     digits: int = 10

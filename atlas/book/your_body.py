@@ -339,14 +339,14 @@ def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> It
 
     Nothing is yielded without a shape, a mass or density, and a field B in SI.
     """
-    body, field = request.body or {}, request.field or {}
-    if "shape" not in body or not {"mass", "density"} & request.options.keys() or field.get("system") != "SI":
+    body = request.body or {}
+    if "shape" not in body or not {"mass", "density"} & request.options.keys() or request.magnetic is None:
         return
-    case = case_of(request)
+    case, (mu, strength) = case_of(request), request.magnetic
     turn = made["turn"]["value"]
     yield from disturbances(Spinning(
         body["shape"], {name: body[name] for name in SHAPES[body["shape"]][0] if name != "mass"}, body["mass"],
-        float(case.physical.mu), (float(case.body.I2), float(case.body.I3)), math.hypot(*field["B"]),
+        mu, (float(case.body.I2), float(case.body.I3)), strength,
         math.hypot(*request.values.get("omega", (request.values.get("omega2", 0.0),))),
         2 * math.pi / turn if turn else made["larmor"]["value"] or 0.0,
     ))  # fmt: skip

@@ -1,5 +1,6 @@
 """The request of a report of a body, a field and a start, that the options of a command are."""
 
+import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -447,6 +448,9 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
         records["body"] = _body(options)
     if in_plane(family):
         records["field"] = _field(options)
+        if options["magnetic"] is not None and body.units_of(options) and body.system_of(options) == "si":
+            strength = math.hypot(*_plain(options["magnetic"]))
+            records["magnetic"] = (float(body.charge_to_mass_of(options)), strength)
     title, digits, called = options["title"], options["digits"], file_name(options)
     context = click.get_current_context(silent=True)
     deviations = context.meta.get(DEVIATIONS) if context else None
@@ -549,7 +553,7 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
     B2, B3 = body.chosen_field(options)
     if options["magnetic"] is None or not body.units_of(options) or B2 < 0:
         return {
-            "title": f"field {_field_words(options['field'] or [float(f'{float(x):.6g}') for x in (B2, B3)])}",
+            "title": f"field {_field_words(options['field'] or tuple(float(f'{float(x):.6g}') for x in (B2, B3)))}",
             "prime": [*map(_exact, (B2, B3))],
         }
     system, (x, y) = {"si": "SI", "gaussian": "Gaussian"}[body.system_of(options)], options["magnetic"]

@@ -277,7 +277,7 @@ MODELS: Mapping[str, Model] = {
 
 def model_of(family: Any) -> Model:
     """Return the `Model` of a family's name. Raises AtlasError for a name not in `MODELS`."""
-    if family not in MODELS:
+    if not isinstance(family, str) or family not in MODELS:
         raise AtlasError(f"The family of a fit is one of {', '.join(MODELS)}, not {family!r}.")
     return MODELS[family]
 

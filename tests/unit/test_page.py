@@ -283,6 +283,18 @@ def test_a_negative_field_keeps_its_sign_in_si(unbuilt: Callable[[str], dict[str
     assert table_of(record)["parameters"]["time"] == "s"
 
 
+@pytest.mark.parametrize("charge", ["5000e", "-5000e"])
+def test_neglected_effects_have_numbers_for_either_charge(
+    unbuilt: Callable[[str], dict[str, Any]], charge: str
+) -> None:
+    """A shape with its mass in a field in SI has them, also where B' is written against e2."""
+    record = unbuilt(f"--shape disk --radius 1um --mass 1pg --magnetic 0.8T 0.1T --spin 20 --charge {charge}")
+    blocks = record["pages"][0]["blocks"]
+    (table,) = (block for block in blocks if block.get("columns", [""])[0] == "Effect")
+    assert table["rows"]
+    assert "[" not in record["parameters"]["fields"]["field"]["title"]
+
+
 def test_a_field_may_be_a_rate_with_a_unit(unbuilt: Callable[[str], dict[str, Any]]) -> None:
     """Where B' itself is typed with a unit of 1/time there is no B to show."""
     record = unbuilt("--ratio 1.5 --field 5/s 3/s --omega2 1/s")
