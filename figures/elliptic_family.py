@@ -107,6 +107,8 @@ def curves(
 ) -> list[tuple[FloatArray, str]]:
     """Return pairs (piece (N, 2), role) of both ovals of motions that the window `view` shows, points (omega2, omega3).
 
+    The unbounded oval, of the role "main", has z above the largest of -D/I_i, the bounded one, "third", has z between
+    the other two, with D = I1 I2 I3 and z as for `EllipticMotion`; unstable pieces have the role "unstable_line".
     `inertia` are the moments (3,), `field` is (B2, B3), `millimetres` the panel's (width, height).
     """
     I, B = np.diag(inertia_tensor(inertia)), np.array([0.0, *components(field)])

@@ -37,8 +37,9 @@ def scene(
 ) -> Scene:
     """Draw the kinds of quadrics over I and beta, and levels of their semi-axes C1, C2, C3 in units of |B'|.
 
-    ``C1``, ``C2`` and ``C3`` are the levels drawn, ``cells`` is the number of cells of the grid a side. Raises
-    DomainError for a level that the map does not have, and for too many cells.
+    I is I3/I2, beta the angle from e2 to I^-1 B', in degrees from 0 to 90. ``C1``, ``C2`` and ``C3`` are the levels
+    drawn, ``cells`` is the number of cells of the grid a side. Raises DomainError for a level that the map does not
+    have, and for too many cells.
     """
     levels = (C1, C2, C3)
     cells = whole(cells, "The number of cells", MIN_CELLS)
@@ -99,7 +100,10 @@ def scene(
 
 
 def semi_axes(I: FloatArray, beta: FloatArray) -> FloatArray:
-    """Return C1, C2, C3 (..., 3) for |B'| = 1; I and beta (degrees, between 0 and 90) broadcast."""
+    """Return the semi-axes C1, C2, C3 (..., 3) of `Quadric`, for |B'| = 1; I and beta (degrees, 0 to 90) broadcast.
+
+    I is I3/I2, beta the angle from e2 to I^-1 B'.
+    """
     steep = I * np.tan(np.radians(beta))  # B3/B2
     B2 = 1.0 / np.sqrt(1.0 + steep * steep)
     return np.asarray(Quadric(np.broadcast_to(I, B2.shape), (B2, steep * B2)).semi_axes)

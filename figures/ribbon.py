@@ -36,10 +36,10 @@ ALONG, ACROSS = 60, 24
 def scene(
     *, ratio: float = 1.5, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 42.0, elevation: float = 16.0
 ) -> Scene:
-    """Draw the quadric (51), tinted by the rate of departure, of a body with I3/I2 other than 1, in a field B2, B3 > 0.
+    """Draw the quadric (51) of a body with I3/I2 other than 1, tinted by the rate of departure, in a field B2, B3 > 0.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time; azimuth and elevation of the view are in degrees. Raises
-    DomainError for a ratio of 1 and for another field.
+    The rate is |omega_1 B2|, that of Omega3 at the start. ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time;
+    azimuth and elevation of the view are in degrees. Raises DomainError for a ratio of 1 and for another field.
     """
     quadric = Quadric(ratio, field)
     if quadric.kind not in {"one-sheet hyperboloid", "two-sheet hyperboloid"} or min(field) < 0:

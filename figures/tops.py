@@ -42,8 +42,9 @@ def scene(
 ) -> Scene:
     """Draw R_3(t) of four tops from ``omega`` over ``nutations`` periods; ``larmor`` scales coupling, potential.
 
-    ``ratio`` is I3/I2, ``direction`` (n2, n3) that of the field; ``omega`` and ``larmor`` are in rad/time; the
-    elevation of the view is in degrees. Raises DomainError unless larmor > 0.
+    ``ratio`` is I3/I2, ``direction`` (n2, n3) that of the field; ``omega`` and ``larmor`` are in rad/time. The
+    couplings k2/I2 and k3/I3 are multiples of ``larmor``, the potentials over I2 multiples of its square, see
+    `TOPS`. The elevation of the view is in degrees. Raises DomainError unless larmor > 0.
     """
     if not larmor > 0:
         raise DomainError(f"figure tops needs a positive larmor, which scales coupling and potential, not {larmor}.")

@@ -30,11 +30,11 @@ def scene(
     pushes: tuple[float, ...] = (1e-3, 1e-2, 1e-1),
     reach: float = 12.0,
 ) -> Scene:
-    """Draw how far K is from its start for each of ``pushes``, angular velocities about e2, up to ``reach`` over it.
+    """Draw how far K is from its start for each of ``pushes``, angular velocities about e2 in rad/time.
 
-    K is the field in the body; time ends at ``reach`` over the push. ``inertia`` are the principal moments,
-    ``field`` is B' along the principal axes, in 1/time. Raises DomainError for equal moments, without a field, and
-    unless there are one to three pushes of at most 1.
+    K is the field in the body; time goes from 0 to ``reach`` divided by the push. ``inertia`` are the principal
+    moments, ``field`` is B' along the principal axes, in 1/time. Raises DomainError for equal moments, without a
+    field, and unless there are one to three pushes of at most 1.
     """
     if not 0 < len(pushes) <= len(ROLES) or not all(0 < abs(push) <= 1 for push in pushes) or not any(field):
         raise DomainError(

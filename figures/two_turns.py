@@ -34,8 +34,9 @@ def scene(
 ) -> Scene:
     """Draw the attitudes 1, R_z and R_B R_z at the time ``part`` of a period of the precession.
 
-    ``ratio`` is I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of the elementary motion, in 1/time;
-    azimuth and elevation of the view are in degrees. Raises DomainError where B2, B3, k or phi is 0.
+    R_z is the proper rotation by phi t about the body's axis, R_B the precession by k t about the field. ``ratio`` is
+    I3/I2 or a body; ``field`` is (B2, B3) of B', ``omega2`` that of the elementary motion, in 1/time; azimuth and
+    elevation of the view are in degrees. Raises DomainError where B2, B3, k or phi is 0.
     """
     motion = ElementaryMotion(ratio, field, omega2)
     if not (motion.k and motion.phi and all(field)):

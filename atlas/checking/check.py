@@ -123,8 +123,8 @@ class Check:
     def drift_table(self) -> tuple[list[str], list[list[str]]]:
         """Return (heading, rows) of the table of conserved quantities: six texts, and six texts for each quantity.
 
-        They are its symbol, its meaning, its equation, the largest relative deviation, the time of that, and the
-        last deviation.
+        They are its symbol, its meaning, its equation, the magnitude of the largest relative deviation, the time of
+        that, and the magnitude of the relative deviation in the last row.
         """
         heading = ["constant", "meaning", "equation", "largest deviation", "at t", "last deviation"]
         rows = [[d.name, d.says, d.label, f"{d.worst:.1e}", f"{d.worst_time:g}", f"{d.last:.1e}"] for d in self.drifts]

@@ -125,7 +125,7 @@ class Sampled:
     uncertified: bool = False
 
     def method_of(self, motion: Any) -> Callable[[Any], Any]:
-        """Return the bound method of a motion that computes the function at times t."""
+        """Return the bound method of a motion, called `method`, that maps times t to the values of the function."""
         method: Callable[[Any], Any] = getattr(motion, self.method)
         return method
 

@@ -209,9 +209,9 @@ def of_arrays(
     """Return the `Data` of the one array in `data`, by kind, that is not None, sorted by time, with t = 0 at `epoch`.
 
     `t` (N,) are the times, `sigma` standard errors, a number or (N,), None for unknown ones, which become 1.
-    Quaternions, scalar first or last, become rotation matrices. Times with NaN are left out or refused by
-    `nan_policy`. Raises AtlasError for no array or several, a wrong shape, fewer than `LEAST` times, equal times,
-    and data far from `epoch`.
+    Quaternions, scalar first or last, become rotation matrices of the kind "rotation". Times with NaN are left out or
+    refused by `nan_policy`. Raises AtlasError for no array or several, a wrong shape, fewer than `LEAST` times, equal
+    times, and where the whole of the data is farther from `epoch` than `FAR` times the span of the times.
     """
     kinds = [name for name, x in data.items() if x is not None]
     if len(kinds) != 1:

@@ -55,9 +55,10 @@ class Prediction(NamedTuple):
     Attributes
     ----------
     value : ndarray
-        Values, of the shape of the times and of the quantity.
+        Values, of the shape of the times and of the quantity; an axis has three components.
     sigma : ndarray
-        Standard errors in the unit of `value`; for rotations angles about the laboratory axes, shape (..., 3), in rad.
+        Standard errors in the unit of `value`, of each component; for rotations angles about the laboratory axes, shape
+        (..., 3), in rad.
     """
 
     value: FloatArray

@@ -105,9 +105,9 @@ def _arranged(scene: Scene, target: Target) -> Scene:
 
 
 def suited(scene: Scene, targets: Sequence[Target]) -> Target:
-    """Return the first target with at least 0.7 of a scene's width, and not below its `narrowest`.
+    """Return the first target whose width, over its zoom, is at least 0.7 of a scene's width and its `narrowest`.
 
-    Else the last target.
+    If there is none, the last target. See `Target` for the zoom, which enlarges text; `narrowest` is the scene's.
     """
     for target in targets[:-1]:
         if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):
@@ -153,7 +153,8 @@ def _fitted(
 ) -> Arrangement:
     """Return the arrangement of panels in `columns` columns, in a room (width, height) in millimetres.
 
-    `before` is (width, height) of a panel in the original scene. Rows too high for the room are lowered together.
+    `before` is (width, height) of a panel in the original scene. Rows too high for the room are lowered together. Where
+    panels become narrower than before, a legend next to a panel is replaced by labels at its layers.
     """
     wide = room[0] / columns
     image_width = wide - _BAR if any(map(_has_bar, panels)) else wide

@@ -36,11 +36,17 @@ class Window:
         return np.array([self.x[0], self.y[0]]), np.array([self.x[1], self.y[1]])
 
     def upright(self, omega2: float) -> FloatArray:
-        """Return the end points (2, 2) of the vertical line at omega2 across the window."""
+        """Return the end points of the vertical line at omega2 across the window, the lower one first.
+
+        They are rows (omega2, omega3) of an array (2, 2); omega2 may lie outside the window.
+        """
         return np.array([[omega2, self.y[0]], [omega2, self.y[1]]])
 
     def level(self, height: float) -> FloatArray:
-        """Return the end points (2, 2) of the horizontal line at this height across the window."""
+        """Return the end points of the horizontal line at omega3 = `height` across the window, the left one first.
+
+        They are rows (omega2, omega3) of an array (2, 2); the height may lie outside the window.
+        """
         return np.array([[self.x[0], height], [self.x[1], height]])
 
     def band(self, start: float, stop: float) -> FloatArray:
