@@ -29,7 +29,7 @@ class Clebsch:
     F : float or ndarray
         Clebsch's integral M^2 - det J (K, J^-1 K), theorem-clebsch, in (inertia/time)^2.
     MK : float or ndarray
-        Casimir (M, K): |B'| times the canonical momentum along B, in inertia/time^2.
+        Casimir (M, K): |B'| times the canonical momentum along B', in inertia/time^2.
     K2 : float or ndarray
         Casimir K^2 = B'^2, (37), in 1/time^2.
     energy : float or ndarray

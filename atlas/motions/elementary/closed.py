@@ -43,7 +43,7 @@ class Closed(DoubleRotation):
 
 
 def _constants(I2: fmpq, I3: fmpq, B2: fmpq, B3: fmpq, r: fmpq) -> list[arb]:
-    """Return [k, omega2 = k B2hat, omega3 by (71), n2, n3] as balls at the current precision; n is along B.
+    """Return [k, omega2 = k B2hat, omega3 by (71), n2, n3] as balls at the current precision; n is along B'.
 
     With L = (1-I) B3 and x = I r b, I L (L - x) omega3 = -B3 (2L - x)(I L + (1-I) x).
     """

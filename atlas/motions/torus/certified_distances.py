@@ -82,9 +82,9 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
     """Return proven bounds (3,) on |M|, |K| and |N| of theta functions minus motion, at all phases of a cell.
 
     ``periods`` are the two proven ones of ``torus``, and all is in its scaled units. The cell reaches from
-    -HALF_TURN to HALF_TURN of both periods, from the start. Where errors might grow too much on the way from there,
-    the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's series goes. Raises
-    NotCertifiedError where there is no bound.
+    -HALF_TURN to HALF_TURN turns of both phases, counted from the motion's state at t = 0. Where errors might grow
+    too much on the way from there, the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's
+    series goes. Raises NotCertifiedError where there is no bound.
     """
     _check_characteristics(theta)
     with workprec(BITS + SPARE_BITS), np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -111,8 +111,8 @@ def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Fl
 def drifts(theta: ThetaMotion, periods: Sequence[Period], rounded_periods: Sequence[Period]) -> Floats:
     """Return proven bounds (3,) on the errors of M, K and N of ``theta``, at all phases, by rounding the periods.
 
-    ``rounded_periods`` are used in the place of the proved ``periods``; phases reach to `TURNS` turns. Raises
-    NotCertifiedError for an error beyond `MAX_DISTANCE`.
+    ``rounded_periods`` are used in the place of the proved ``periods``; phases reach to `TURNS` turns, more than a
+    phase of 2^50 rad has. Raises NotCertifiedError for an error beyond `MAX_DISTANCE`.
     """
     with workprec(BITS + SPARE_BITS):
         arc, turn = np.zeros(3), 2 * arb.pi()

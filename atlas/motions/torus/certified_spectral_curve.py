@@ -50,7 +50,7 @@ class SpectralCurve:
     def periods(self) -> list[list[arb]]:
         """Two lists [T_H, T_F, angle] of balls: times of the flows of H and F/2 that together bring M and K back.
 
-        R is then rotated about B by the angle, in rad, in Larmor's frame. T_H is in time, T_F in time/inertia. Raises
+        R is then rotated about B' by the angle, in rad, in Larmor's frame. T_H is in time, T_F in time/inertia. Raises
         NotCertifiedError where no periods are proved.
         """
         periods = self.torus.periods(int(ctx.prec) + 32)
@@ -64,7 +64,7 @@ class SpectralCurve:
 
     @property
     def actions(self) -> list[arb]:
-        """List [J1, J2, J3] of balls in inertia/time, the actions whose rates are the `frequencies`; J3 = (M, B)/|B|.
+        """List [J1, J2, J3] of balls in inertia/time, the actions whose rates are the `frequencies`; J3 = (M, K)/|K|.
 
         J1 and J2 are integrals of eta du over cycles, see `atlas.motions.torus.certified_cycles`. Raises
         NotCertifiedError where they are not proved.

@@ -234,7 +234,8 @@ class TorusGrid:
     def _change_by_half(x: FloatArray, axis: int) -> float:
         """Return the largest relative change of the means of M_i^2, K_i^2 and M_i K_i if half the nodes are used.
 
-        Every second node along ``axis``, 0 or 1, of the grid x is left out.
+        Every second node along ``axis``, 0 or 1, of the grid x is left out. The change is relative to the largest of
+        the nine means.
         """
         products = np.concatenate([x * x, x[:3] * x[3:]])
         whole, half = (y.mean((1, 2)) for y in (products, products[:, :, ::2] if axis else products[:, ::2]))

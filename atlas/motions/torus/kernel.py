@@ -348,7 +348,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @kept
     def MK(self) -> FloatOrArray:
-        """Casimir (M, K): |B'| times the canonical momentum along B, in inertia/time^2.
+        """Casimir (M, K): |B'| times the canonical momentum along B', in inertia/time^2.
 
         Raises
         ------

@@ -51,10 +51,10 @@ def quotients(
 ) -> tuple[Array, list[Array], FloatArray, FloatArray]:
     """Return the quotients y of forms by D in the middle of m cells, G, the least |D|, and the largest change of y.
 
-    `value` (n, m) are the forms, D the fourth of them, and `slopes` two of these by exponents, which are
-    `by_phases` (2, 2) @ phases; `bends` (n, m) bound the sums of second derivatives by phases, and ``half`` is half
-    a cell's side in rad. G are the two slopes less y times those of D, as in the module. A negative least |D| means
-    that D may vanish in the cell: y has no bound there.
+    Their shapes are (n, m), two of (n, m), (m,) and (n, m). `value` (n, m) are the forms, D the fourth of them, and
+    `slopes` two of these by exponents, which are `by_phases` (2, 2) @ phases; `bends` (n, m) bound the sums of
+    second derivatives by phases, and ``half`` is half a cell's side in rad. G are the two slopes less y times those
+    of D, as in the module. A negative least |D| means that D may vanish in the cell: y has no bound there.
     """
     y = value / value[D]
     G = [slope - y * slope[D] for slope in slopes]
