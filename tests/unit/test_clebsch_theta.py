@@ -418,7 +418,7 @@ def test_a_closed_form_that_rounds_badly_is_refused(
             closed_form(exact, 1.25)
     for error in (ZeroDivisionError("of zero"), ValueError("no number"), np.linalg.LinAlgError("singular")):
         monkeypatch.setattr(core, "ThetaMotion", lambda *_, error=error: (_ for _ in ()).throw(error))
-        with pytest.raises(atlas.NotCertifiedError, match=f"badly conditioned, {error}"):
+        with pytest.raises(atlas.NotCertifiedError, match="infinite or singular"):
             closed_form(exact, 1.25)
 
 

@@ -211,5 +211,5 @@ def test_a_picture_is_of_one_flight() -> None:
         Flight(PARTICLE, motions, point, FRAME),
         Flight(particles, motion, point, FRAME),
     ):
-        with pytest.raises(AtlasError, match="of one Flight"):
+        with pytest.raises(AtlasError, match="shows one Flight"):
             scene_of(flight_array)

@@ -349,8 +349,8 @@ def closed_form(exact: AsymmetricMotion, size: float) -> ThetaKernel:
         kernel = ThetaKernel(theta, torus, motion.rate, size)
     except NotCertifiedError:
         raise
-    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:  # infinite, or not a number, or singular
-        raise NotCertifiedError(f"not certified: the motion's torus is badly conditioned, {error}.") from error
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError) as error:
+        raise NotCertifiedError("not certified: constants of the motion's torus are infinite or singular.") from error
     if not kernel.rounding.accuracy(MAX_ROUNDING) <= MAX_ROUNDING:
         raise NotCertifiedError(f"not certified: rounding would be wrong by up to {kernel.accuracy:.1e} in its sums.")
     return kernel
