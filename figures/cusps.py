@@ -37,7 +37,7 @@ def scene(
     elevation: float = 25.0,
     unit: str = "time",
 ) -> Scene:
-    """Draw the axis for each push ``omega2``, and where these motions lie beside the line of cusps.
+    """Draw the axis for each push ``omega2``, and where these motions lie relative to the line of cusps.
 
     The start is (0, omega2, ``omega3``), in rad/time. ``ratio`` is I3/I2, ``linear`` the weight's potential over
     I2, in 1/time^2, ``direction`` (n2, n3) the vertical in the body; traces last ``nutations`` periods. The

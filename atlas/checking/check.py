@@ -44,15 +44,16 @@ class Check:
     threshold : float
         Number of correct digits below which a column fails.
     columns : tuple of Column
-        Median and least number of correct digits of each column, under its name in the input.
+        Median and least number of correct digits of each column, under its name in the input; see `Column`.
     drifts : tuple of Drift
-        Largest deviation of each conserved quantity.
+        Largest relative deviation of each conserved quantity; see `Drift`.
     rows_a_point : int
         Number of consecutive rows that `errors` summarises in one value.
     times : tuple of float
         First time of each such group of rows.
     errors : mapping of str to tuple of float
-        Largest error in each group, for "R", "Omega" and "quaternion".
+        Largest error in each group, for "R", "Omega" and "quaternion"; that of Omega is in units of a rate of the
+        motion, see `Reference.unit`.
     conventions : tuple of str
         Sentences on conventions in which columns that fail would be right.
     step : float

@@ -32,7 +32,7 @@ class Convergence:
     steps : tuple of float
         Steps of the runs.
     errors : mapping of str to tuple of float
-        Largest error of each run, for "R", "Omega" and "quaternion".
+        Largest error of each run, for "R", "Omega" and "quaternion", in the units of `Check.errors`.
     orders : mapping of str to tuple of float or None
         Order p in error ~ step^p from each run and the one before; None where an error is rounding.
     order : mapping of str to float or None
@@ -98,8 +98,8 @@ class Convergence:
 def convergence(checks: Sequence[Any]) -> Convergence:
     """Return the `Convergence` of two or more runs of an integrator, each a `Check`, in any order.
 
-    Raises AtlasError for fewer than two runs, for equal steps, and for runs whose columns, motions or final times
-    differ.
+    Raises AtlasError for fewer than two runs, for equal steps, for runs without graded columns, for runs whose
+    columns or motions differ, and for final times that differ by more than 1.5 times the longest step.
     """
     runs = sorted(checks, key=lambda run: -run.step)
     steps = tuple(run.step for run in runs)

@@ -190,7 +190,8 @@ def _start(of_file: Mapping[str, tuple[float, ...]], file: str, overrides: Given
 def _plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
     """Return the parameters of a symmetric body's motion by name as floats and lists.
 
-    A body is {"inertia": [I2, I3]}, a number {"ratio": I3/I2}; beside it are "field" and omega, or omega2 and omega3.
+    A body is {"inertia": [I2, I3]}, a number {"ratio": I3/I2}; the others are "field" and "omega", or
+    "omega2" and "omega3".
     """
     body = parameters["ratio"]
     plain: dict[str, Any] = {"inertia": [body.I2, body.I3]} if hasattr(body, "I2") else {"ratio": float(body)}

@@ -129,7 +129,7 @@ class KernelTruth:
 def truth_of(motion: Motion, unit: Real) -> Truth | KernelTruth:
     """Return the reference values of a motion: a `Truth` for an `ElementaryMotion`, else a `KernelTruth`.
 
-    `unit` is the largest rate of a motion with three moments, in rad/time, which limits the times `within` reach. Where
+    `unit` is `Reference.unit`, in rad/time; for a motion with three moments it limits the times `within` reach. Where
     such a motion has no closed form, no time is within reach, and each row is decided by balls. A motion in given axes
     has no balls.
     """

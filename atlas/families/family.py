@@ -59,8 +59,8 @@ class Quantity:
     symbol     in a printout, the name if there is none
     lines      (symbol, words) of each component that is printed on its own line
     get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
-    drawn      how to get it at inputs moved for a standard deviation, from an object of kernels and the unmoved
-               value
+    drawn      how to get it where inputs are uncertain: a function of an object of kernels at moved inputs and,
+               as `near`, of the value at the unmoved inputs
     text       how the texts of its digits become one text
     missing    why there may be none: an empty cell then, which this explains; "" where that is an error
     checked    its name in a stress run, if it has a promise or is checked without one
@@ -68,6 +68,8 @@ class Quantity:
     printed    whether a command prints it
     tabled     whether a table has it
     slow       whether it takes more than a few milliseconds, as a proof does: not while a slider moves
+
+    "Kernels" are the family's class in doubles, "balls" the certified one.
     """
 
     name: str

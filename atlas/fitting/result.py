@@ -77,7 +77,7 @@ class Fit:
     names : tuple of str
         The varied parameters, in the order of `covariance`.
     covariance : ndarray, shape (n, n)
-        Covariance of the varied parameters.
+        Covariance of the varied parameters, in products of their units.
     redchi : float
         Chi square over the degrees of freedom `nfree`; 1 where sigma was not given, for the scatter is `sigma` then.
     sigma : float or ndarray, shape (N,)
@@ -133,10 +133,11 @@ class Fit:
     def of(
         cls, problem: Problem, tried: list[tuple[float, Any]], epoch: float, *, steady: str = "", doubt: str = ""
     ) -> "Fit":
-        """Return the fit at the first, lowest, of the minima `tried`, pairs (chi square, varied parameters (n,)).
+        """Return the fit at the first of the minima `tried`, pairs (chi square, varied parameters (n,)).
 
-        `epoch` is the time of the parameters. With a sentence `steady` on an elementary motion or a free body the
-        minimum is not refined; `doubt` becomes the first warning. Both are "" without such a sentence.
+        The first is the lowest, unless an elementary motion or a free body that fits as well was put before it.
+        `epoch` is the time of the parameters. With a sentence `steady` on such a motion or body the minimum is not
+        refined; `doubt` becomes the first warning. Both are "" without such a sentence.
         """
         data = problem.data
         x, jac = minimum(problem.alone() if problem.loss == "linear" else problem, tried[0][1], steady=bool(steady))

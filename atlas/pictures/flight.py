@@ -122,7 +122,8 @@ def swung(flight: Flight, t: FloatArray) -> tuple[FloatArray, FloatArray]:
 def panel_axes(flight: Flight, B: FloatArray) -> FloatArray:
     """Return the axes of panel (b) as columns, (3, 2): x along the drift [E, B], or along e1 without a drift.
 
-    The second is perpendicular to the magnetic field B (3,) and to the first.
+    The second column is the product of the unit vector of the magnetic field B (3,) with the first. Components are in
+    the laboratory.
     """
     drifts = bool(flight.particle.drift.any())
     x_axis = flight.particle.axes[0] if drifts else np.array([1.0, 0.0, 0.0])

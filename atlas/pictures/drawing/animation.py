@@ -216,9 +216,9 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
     """Return the animation of a motion, a frame for each of the `times`; `options` as for `animation`.
 
     Without times the animation lasts the least number of periods, up to `MAX_PERIODS`, that brings the body back to
-    its attitude; if no number does, one period, and `jumps` is True. If the body comes back, every frame has the
-    whole path of the axis, else the path of the last period. Raises AtlasError as `animation` does, and for an
-    array of motions.
+    its attitude; if no number does, one period, and `jumps` is True. The period is that of `any_motion.period`. If the
+    body comes back, every frame has the whole path of the axis; otherwise, and for given `times`, a frame has the path
+    of the last period, from t = 0 on. Raises AtlasError as `animation` does, and for an array of motions.
     """
     length, count, closed = any_motion.period(motion), 1, False
     if times is None:
