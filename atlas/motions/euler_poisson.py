@@ -6,7 +6,7 @@ rotations (..., 3, 3). `B` is B' = mu B/(2c), (32), in the laboratory, and `K` =
 share one unit. These functions check nothing: the integrators call them often.
 
 Conserved for every body: the energy (Omega, I Omega)/2; K^2; and, since the fields don't change when the whole is
-turned about B, the canonical momentum along B,
+turned about B, the canonical momentum along B',
 
     (K, I (Omega + K)) = (B', m + R I R^T B'),
 
@@ -90,7 +90,7 @@ def energy(inertia: Any, Omega: Any) -> FloatArray:
 
 
 def momentum_along_field(inertia: Any, K: Any, Omega: Any) -> FloatArray:
-    """Return (K, I (Omega + K)), shape (...): |B'| times the canonical momentum along B, conserved for every body.
+    """Return (K, I (Omega + K)), shape (...): |B'| times the canonical momentum along B', conserved for every body.
 
     K is the field in the body, I the tensor ``inertia``; the unit is inertia/time^2.
     """
