@@ -39,9 +39,10 @@ def scene(
 ) -> Scene:
     """Draw the quartic Q, the potential V and Omega3(t), over ``turns`` oscillations, for the start ``omega``.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is
-    the word for the unit of time. If the oscillation is much smaller than omega3, Omega3 - omega3 is drawn. Raises
-    DomainError on a separatrix and for a nutation that is too small.
+    Q and V are functions of Omega3 with (dOmega3/dt)^2 = Q and Q + 2 V constant. ``ratio`` is I3/I2; ``field`` is (B2,
+    B3) of B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is the word for the unit of time. If the
+    oscillation is much smaller than omega3, Omega3 - omega3 is drawn. Raises DomainError on a separatrix and for a
+    nutation that is too small.
     """
     oscillator = PseudoOscillator(ratio, field, omega)
     motion = GeneralMotion(ratio, field, omega)

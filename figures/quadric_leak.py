@@ -101,8 +101,9 @@ class Leaving:
 
     The departure is computed as B3 - b nu, (40), which keeps its digits for a needle, from a top with the coupling
     b (I2, I3); nu is the cosine between axis and field, b the field's length. `below` and `above` are the least and
-    largest departure, `farthest` the larger magnitude, in rad/time, `speed` the rate at t = 0, `period` that of
-    Omega3. Raises DomainError where the departure is only rounding, and on a separatrix.
+    largest departure, `farthest` the larger magnitude, in rad/time, `speed` the departure's time derivative omega1
+    B2 at t = 0, in 1/time^2, `period` that of Omega3. Raises DomainError where the departure is less than
+    `MIN_DEPARTURE` of b, and on a separatrix.
     """
 
     def __init__(self, oscillator: PseudoOscillator) -> None:

@@ -34,7 +34,10 @@ def sphere(
 
 
 def erected(points: FloatArray, upright: Sequence[float]) -> FloatArray:
-    """Return points (N, 3) rotated so that `upright`, of components along e2 and e3 or all three, becomes e3."""
+    """Return points (N, 3) rotated so that `upright`, of components along e2 and e3 or all three, becomes e3.
+
+    The rotation is that of `_turn`; `upright` is not zero, and only its direction counts.
+    """
     return np.asarray(points @ _turn(*(upright if len(upright) == 3 else (0.0, *upright))).T)
 
 
@@ -59,9 +62,9 @@ def traced_sphere(
 
 
 def _turn(x: float, y: float, z: float) -> FloatArray:
-    """Return the matrix (3, 3) that turns the direction of (x, y, z) to e3: first about e3, then about e1.
+    """Return the matrix (3, 3) that turns the direction of (x, y, z), not all 0, to e3: first about e3, then about e1.
 
-    The first rotation takes the direction into the plane (e2, e3).
+    The first rotation takes the direction into the plane (e2, e3); for x = 0 it is left out.
     """
     level = float(np.hypot(x, y))
     cos, sin = (y / level, x / level) if level and x else (1.0, 0.0)
