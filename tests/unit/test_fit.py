@@ -208,7 +208,8 @@ def test_a_wider_family_is_named() -> None:
     assert not atlas.fit(t, "asymmetric", rotation=R, sigma=1e-3).undetermined
 
 
-@pytest.mark.parametrize("seed", [2, pytest.param(6, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 6])
 def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
     """A spin of 30 that nutates by a hundredth: chi square is that of noise, statements about the body are right."""
     rng = np.random.default_rng(seed)
@@ -683,7 +684,8 @@ def test_a_small_nutation_is_found_or_reported_as_undetermined() -> None:
     assert abs(fit.redchi - 1) < 0.2
 
 
-@pytest.mark.parametrize("loss", ["linear", pytest.param("soft_l1", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("loss", ["linear", "soft_l1"])
 def test_standard_errors_agree_with_many_measurements(loss: str) -> None:
     """Squared distances from the truth, by the covariance, are those of ten degrees of freedom each; with outliers too.
 

@@ -52,6 +52,7 @@ def test_the_short_run_keeps_every_promise(short_run: Result) -> None:
     assert not short_run.refusals
 
 
+@pytest.mark.slow
 def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     """Each quantity with a limit is checked, in every regime that concerns it, and so is each regime."""
     promised = {name for family in FAMILIES.values() for name in family.promises}
@@ -64,6 +65,7 @@ def test_every_promise_is_put_to_the_test(short_run: Result) -> None:
     assert clocks == set(extreme.CLOCKS)
 
 
+@pytest.mark.slow
 def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result) -> None:
     """The input of the worst R gives that error again, to the bit."""
     record = max((w for w in short_run.worst if w.quantity == "R"), key=lambda w: w.ulps)
@@ -166,6 +168,7 @@ def test_kernels_and_balls_agree_as_on_another_processor() -> None:
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.slow
 def test_a_record_takes_the_larger_error_of_two_runs(tmp_path: Path, short_run: Result, other_run: Result) -> None:
     """The record covers each run that it was made from, rounded up, and forgets nothing worse."""
     path = tmp_path / "worst_errors.json"
