@@ -86,7 +86,7 @@ def find(word: str) -> tuple[Equation, ...]:
 
 
 def equation(word: str) -> Equation:
-    """Return the one `Equation` that a word means, read as by `find`.
+    """Return the one entry of the ledger, an `Equation` of any kind, that a word means, which is read as by `find`.
 
     Raises AtlasError if there is none, or if two have this label.
     """

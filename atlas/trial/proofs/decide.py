@@ -169,10 +169,11 @@ def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[
 
 
 def _function(tree: ast.Compare, defines: tuple[str, ...], reader: Reader) -> dict[str, Value]:
-    """Return by name the function q, dq, ddq, dddq that an equation such as d(u)^2 = Q(u) = u^4 + a defines.
+    """Return the function that a line defines and its derivatives, {} if no side is a function named in ``defines``.
 
-    The tree is changed in place to d(u)^2 = u^4 + a. Returns {} if no side is a function named in ``defines``. Raises
-    NoMeaningError if the value does not contain the variable.
+    The line d(u)^2 = Q(u) = u^4 + a with Q in ``defines`` gives a dict of four functions by name, Q, dQ, ddQ, dddQ, see
+    `functions`: Q has the value of the side behind Q(u), or of the last one left. The tree is changed in place to
+    d(u)^2 = u^4 + a. Raises NoMeaningError if that side does not contain the variable u.
     """
     every = [tree.left, *tree.comparators] if all(isinstance(sign, ast.Eq) for sign in tree.ops) else []
     for place, side in enumerate(every):

@@ -120,7 +120,10 @@ def split_model() -> Model:
 
 
 def parallel_model() -> Model:
-    """Return the model of (93): constants of the part along B, see `split_model`; the line defines ypar."""
+    """Return the model of (93): all letters of `split_model` but ypar, which the printed line of (93) itself defines.
+
+    That line has the constants ypar0, Cpar, Epar and mu, and the time t, the only symbol that moves.
+    """
     letters = _split()
     del letters["ypar"]
     return Model(letters, flow={t: sympy.Integer(1)}, start={t: sympy.Integer(0)})

@@ -124,7 +124,8 @@ def coordinates_model() -> Model:
 def _axes() -> tuple[Value, Value]:
     """Return the unit eigenvectors (cos, sin) and (-sin, cos), (2, 1) each, of the form (51) in the plane omega1 = 0.
 
-    The angle is delta of `_angles`. Raises ArithmeticError if one is no eigenvector. Cached.
+    Their components are those along omega2 and omega3. The angle is delta of `_angles`. Raises ArithmeticError if
+    one is no eigenvector. Cached.
     """
     cotangent = I * B2 / B3
     form = sympy.Matrix([[1, -cotangent / 2], [-cotangent / 2, 0]])
