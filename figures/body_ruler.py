@@ -62,8 +62,9 @@ def scene(*, field: tuple[float, float] = (1.0, 1.0), azimuth: float = 20.0, ele
 
 
 def drawn_field(field: tuple[float, float], azimuth: float) -> tuple[float, float]:
-    """Return (B2, B3) along `field`, scaled down so far that each body's quadric stays in its place of the row.
+    """Return (B2, B3) along `field`, which is not zero and whose own length does not count.
 
+    The length is SIZE, or less if a body's quadric would leave its place in the row: one length for all bodies.
     `azimuth` is that of the view in degrees.
     """
     rightward = frame(Space((), azimuth=azimuth))[0]

@@ -136,9 +136,11 @@ LARGEST = float(np.finfo(float).max) / 4
 class DoubleRotation:
     """Rotation matrix R(t) = R_n(k t) R_z(phi t), (85), of a body that precesses about n and turns about its axis.
 
-    `axis` n is a unit vector, `precession` k and `proper` phi are frequencies in rad/time, all exact. If `inverse`,
-    the matrix is the transposed one, as for the ball, (28). Each entry is a constant linear combination of
-    functions of time, see `Basis`: one small matrix product makes all of them.
+    `axis` n is a unit vector (3,), `precession` k and `proper` phi are frequencies in rad/time, all exact:
+    rationals or balls of flint. If `inverse`, the matrix is the transposed one, as for the ball, (28). Each entry
+    is a constant linear combination of functions of time, see `Basis`: one small matrix product makes all of them.
+    `vectors`, set by the subclasses, are constant vectors by name, three components each: `angular_velocity` needs
+    "Omega".
     """
 
     vectors: Mapping[str, tuple[Any, ...]] = MappingProxyType({})

@@ -214,7 +214,10 @@ class Disturbance:
 
     @property
     def outweighs(self) -> bool:
-        """Whether the effect is larger than the effect of the charge for all usual values."""
+        """Whether the effect is larger than that of the charge for all values that `usual` describes.
+
+        Where `usual` is "", it is larger for the body's own number.
+        """
         return self.least > 1
 
     @property

@@ -69,8 +69,9 @@ def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
 def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> tuple[float | None, str]:
     """Return (value, "") of the card's number `key`, or (None, reason in words why there is none).
 
-    The value is computed in doubles, in rad, time or rad/time; `arguments` are the family's inputs by name.
-    `motion` is the object in doubles.
+    `key` is one of `ENTRIES`, unchecked. The value is computed in doubles, in rad, time or rad/time; `arguments`
+    are the family's inputs by name. `motion` is the object in doubles. The reason is that of a DomainError, or of a
+    division by zero or an overflow; other errors are raised.
     """
     try:
         value = float(_number(key, family, motion, arguments, math))

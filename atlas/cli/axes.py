@@ -54,8 +54,11 @@ class Principal(NamedTuple):
 def in_principal_axes(motion: Any, unit: str = "", *, fitted: bool = False) -> Principal:
     """Return a motion in given axes as a `Principal`, along the axes of its class; `unit` is written behind its rates.
 
-    Where floats do not hold the inputs of the class, or its field has three components, the family is that of any
-    three moments; not for a motion that was `fitted`, which is rounded.
+    `unit` is a text only: nothing is converted. The family is that of any three moments where the class has no
+    command, where floats do not hold its inputs, and where its field is given by three numbers; but a field (0, K2,
+    K3) of a symmetric body counts as two. A motion that was `fitted`, which is rounded anyway, keeps a family with
+    a command in both of the latter cases; the axes of a symmetric body are then turned about the third so that its
+    field has two components.
     """
     from atlas.arithmetic.given import Given
 

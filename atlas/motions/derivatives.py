@@ -256,11 +256,12 @@ class One:
         return self._cache[key]
 
     def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
-        """Return dK/dt if ``of`` is "field", else dOmega/dt, (m, 3), along the body's axes.
+        """Return dK/dt if ``of`` is "field", else dOmega/dt, (m, 3), along the body's axes, in 1/time^2.
 
         R (m, 3, 3) are the rotations, Omega (m, 3) the angular velocities in the body, and B (3,) is the field in
-        the laboratory. I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega], with the
-        coupling k and the potential U of `Inputs.dynamics`, and b the field in the body.
+        the laboratory. I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega], with the moments
+        I, the coupling k, three numbers each, and the potential U of `Inputs.dynamics`, U' by b3; b = R^T B is the
+        field in the body, which K is, [,] the vector product, and I and k multiply component by component.
         """
         J, k, linear, quadratic = self.inputs.dynamics
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T

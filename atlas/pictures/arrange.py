@@ -105,9 +105,10 @@ def _arranged(scene: Scene, target: Target) -> Scene:
 
 
 def suited(scene: Scene, targets: Sequence[Target]) -> Target:
-    """Return the first target whose width, over its zoom, is at least 0.7 of a scene's width and its `narrowest`.
+    """Return the first target whose width, over its zoom, is at least both 0.7 of a scene's width and its `narrowest`.
 
-    If there is none, the last target. See `Target` for the zoom, which enlarges text; `narrowest` is the scene's.
+    If there is none, the last target. Widths are in millimetres; `narrowest` is the least readable one, see
+    `Scene`. The zoom, see `Target`, enlarges text.
     """
     for target in targets[:-1]:
         if target.width / target.zoom >= max(scene.narrowest, _FITS * scene.size[0]):

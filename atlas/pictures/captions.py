@@ -24,7 +24,10 @@ def tex_equals(value: float) -> str:
 
 
 def spelt(count: float) -> str:
-    """Return a number of periods in words: "one period", "2.5 periods"; at most six digits."""
+    """Return a number of periods as text: "one period" for 1, else with digits, such as "2 periods" or "2.5 periods".
+
+    There are at most six digits, as in `plain`.
+    """
     return "one period" if count == 1.0 else f"{plain(count)} periods"
 
 

@@ -144,9 +144,11 @@ def _kind(default: Any) -> Any:
 
 
 def _fit(value: Any, kind: Any) -> Any:
-    """Return a value converted to an annotation `kind`, NumPy's types to Python's; a body may stand for a number.
+    """Return a value converted to an annotation `kind`, NumPy's types to Python's.
 
-    Raises _Unfit, whose message is the expected type in words.
+    Annotations are float, int, bool, str, Literal, tuples of these, one of these or None, and Any, which counts as
+    float; for another one the value is returned unchanged. A body, which stands for its ratio I3/I2, is returned
+    unchanged where the kind is float or Any. Raises _Unfit, whose message is the expected type in words.
     """
     if hasattr(value, "tolist"):
         value = value.tolist()

@@ -50,9 +50,11 @@ def ellipse(centre: FloatArray, east: FloatArray, north: FloatArray) -> Callable
 def around(
     quadric: FloatArray, centre: FloatArray, east: FloatArray, north: FloatArray, tolerance: float
 ) -> FloatArray:
-    """Return the angles s (N,), in rad from 0 to 2 pi, of the meridians at which a round surface's mesh is divided.
+    """Return the angles s (N,), in rad, of the meridians at which a round surface's mesh is divided.
 
-    The surface's widest section is the ellipse centre + east cos s + north sin s; `tolerance` is as for `sample.cuts`.
+    They ascend from 0 to 2 pi, both included. `quadric` is the surface's symmetric (4, 4) matrix, see `matrix`. Its
+    widest section is the ellipse centre + east cos s + north sin s, vectors (3,); `tolerance` is as for
+    `sample.cuts`.
     """
     return sample.cuts(quadric, [ellipse(centre, east, north)], 0.0, TURN, tolerance)
 

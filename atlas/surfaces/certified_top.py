@@ -166,7 +166,10 @@ class TopHyperbola:
     def _fourfold(self) -> Polynomial:
         """The polynomial (a + 2 A n3) x in u, with x = u - kappa, u = omega2/n2 + k2 and a = M3 kappa + a0.
 
-        It vanishes where the quartic has a fourfold root.
+        M3 = (n3 u^2 + a0 + A n3)/x is the momentum along the axis on the curve; A, kappa and a0 are as in
+        `TopQuadric`, in units of I2. The coefficients are at most three `Surd`s, the constant first.
+        Where the `stability` is 0, off the pole x = 0, it vanishes just where the motion's quartic has a fourfold
+        root.
         """
         I, k2, k3, _, n3, a0, _ = self.top
         kappa, A = k2 - k3 / I, self._leading

@@ -283,19 +283,22 @@ def _exactly(row: Any) -> "Exact":
 
 
 class TopQuadric(Quadric):
-    """The surface n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D = 0 of starts of a top at which nu'' = 0.
+    """The surface n3 (omega1^2 + w^2) - I n2 w v + n2^2 n3 D = 0 of starts of a top at which nu'' = 0, nu = cos theta.
 
-    The inputs are those of `TopMotion` without omega, and broadcast. In units of I2, with n a unit vector,
+    theta is the angle between the axis and n. The inputs are those of `TopMotion` without omega, and broadcast. In
+    units of I2, with n a unit vector,
 
         w = omega2 + n2 k3/I,    v = omega3 + n3 (k3 - 2 kappa)/I,    D = A + kappa^2 + a0/n3,
 
-    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, a0 and A0 the `linear` and the `quadratic` potential. The surface is (51)
-    for k2 = b, k3 = I b, n = B'/b without a potential, and D is in the place of (I - 1) b^2. `beta`, `a2`, `a3` and
-    `axes` are as in (53) and (54) with n in the place of B', `semi_axes` the roots of |D| n2^2 (1, |a2|, |a3|). Steady
-    motions, see `Hyperbola.of_top`, have omega1 = 0: for omega1 != 0 the axis leaves its start although nu'' = 0 there.
+    kappa = k2 - k3/I, A = A0 + k3^2/I - k2^2, (k2, k3) the coupling, a0 and A0 the `linear` and the `quadratic`
+    potential. The surface is (51) for k2 = b, k3 = I b, n = B'/b without a potential, and D is in the place of (I -
+    1) b^2. `beta`, `a2`, `a3` and `axes` are as in (53) and (54) with n in the place of B', `semi_axes` the square
+    roots of |D| n2^2 (1, |a2|, |a3|), all 0 for the cone, D = 0. Steady motions, see `Hyperbola.of_top`, have
+    omega1 = 0: for omega1 != 0 the axis leaves its start although nu'' = 0 there.
 
-    Degenerate kinds: for n2 = 0 ("line") as in `Quadric`; for n3 = 0 ("plane pair", "hyperbolic cylinder") a linear
-    potential makes D and the semi-axes infinite: DomainError.
+    Degenerate kinds: for n2 = 0 ("line") as in `Quadric`; for n3 = 0 "plane pair", with a linear potential
+    "hyperbolic cylinder", for which D is infinite: the object is made, and `D` and `semi_axes` raise DomainError
+    when they are read.
     """
 
     family = ""

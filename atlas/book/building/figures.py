@@ -67,7 +67,10 @@ class FigureBuild:
 
     @property
     def name(self) -> str:
-        """Title of this figure for messages, such as ``stem(key=value)``; " shaded" and the names of targets follow."""
+        """Title of this figure for messages, such as ``stem(key=value) shaded for A or B``.
+
+        It has "shaded" if that is the renderer, and "for" with the names of `targets` if there are any.
+        """
         from atlas.book.digits import shown
 
         settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())

@@ -84,7 +84,11 @@ PHYSICS = ("arithmetic", "bodies", "surfaces", "motions", "maps")
 
 
 def _modules() -> dict[str, tuple[str, ...]]:
-    """Return, by name of an entry of the ledger, the modules of `PHYSICS` whose docstrings cite it, as paths."""
+    """Return, by name of an entry of the ledger, the modules of `PHYSICS` whose docstrings cite it, as paths.
+
+    The paths are relative to the package, such as "motions/base.py", in the order of `PHYSICS`; entries that none cites
+    are absent.
+    """
     modules: defaultdict[str, list[str]] = defaultdict(list)
     files = [path for place in PHYSICS for path in sorted((PACKAGE / place).rglob("*.py"))]
     for path in files:

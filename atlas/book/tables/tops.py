@@ -308,7 +308,8 @@ def elliptic(request: Request, setup: Family) -> Data:
 
     A row has the place (z, v) of the motion on the curve of its family, see `EllipticMotion`, omega (3,) in 1/time, the
     number C/D^2, whose sign decides on stability, the period T of the field K in the body, the angle in rad by which
-    the body turns about the field in T, and "stable" or another word.
+    the body turns about the field in T, and a word: "stable", which needs C > 0 unless each Omega_i is 0 or -2 K_i,
+    "unstable", or, for C = 0 only, "undecided"; see `EllipticMotion.stability`.
     """
     from atlas.motions.nutation.certified_elliptic import EllipticMotion
 

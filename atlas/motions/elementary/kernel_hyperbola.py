@@ -178,7 +178,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, and for B2 = 0.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
         AtlasError
             For an input that is no number.
         """
@@ -201,7 +201,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, and for B2 = 0.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
         AtlasError
             For an input that is no number.
         """
@@ -246,7 +246,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, and for B2 = 0.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
         AtlasError
             For an input that is no number.
 
@@ -275,7 +275,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, and for B2 = 0.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
         AtlasError
             For an input that is no number.
         """
@@ -301,7 +301,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, and for B2 = 0.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
         AtlasError
             For an input that is no number.
         """

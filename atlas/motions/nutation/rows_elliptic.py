@@ -33,15 +33,19 @@ PLANE_FACTOR = 1 + 1e-12
 
 @dataclass(frozen=True)
 class EllipticRoots(TurningPoints):
-    """The turning points of v = u + K_a, u = -K_a(t), a the nutating axis, with further constants, for rows (m,).
+    """The turning points of u + K_a, u = -K_a(t), a the nutating axis, with further constants, for rows (m,).
 
-    Q = (du/dt)^2 is even in u. `turning` is its root u_t, where u turns back, and `w` the square of the other
-    roots. `K` is the field at t = 0, `axial` K_a and `transverse` its part across a, `b` its length; `v` is the
-    root of the family, `torque` that at both poles, `precession` (E_a - 1) b. `rates` are E_i - 1, from K to Omega;
-    `sense` are the signs of E_c less the other E_i and of K_c, c the axis about which K goes round; `frame` (3, 3,
-    m) has the axes in which K starts as (0, `transverse`, `axial`), the third one a, as columns. `top` and `plane`
-    are None, unlike those of `Roots`. Only where the mask `elliptic` holds all this is certain to be a motion of
-    that kind.
+    u + K_a, 0 at t = 0, is the variable of `TurningPoints`. Q = (du/dt)^2 is even in u. `turning` is its root u_t > 0,
+    where u turns back, and `w` < 0 the square of the other two roots. `K` is the field at t = 0, `axial` K_a and
+    `transverse` its part across a, `b` its length; K is along a at the poles u = -b and b, where Q is -`torque`^2.
+
+    `v` is the square root, with the sign of the branch, of the product of the three z + I_j I_k, see `Pencil`, in
+    inertia^3. `rates` are E_i - 1, without unit: Omega_i = (E_i - 1) K_i; `precession` is (E_a - 1) b. `sense` are the
+    signs, 1 or -1, of E_c less the other E_i, the same for both, and of K_c, c the axis about which K goes round.
+
+    `frame` (3, 3, m) has the axes in which K starts as (0, `transverse`, `axial`), the third one a, as columns.
+    `top` and `plane` are None, unlike those of `Roots`. Rates and fields are in 1/time of the scaled unit, `w` and
+    `torque` in its square. Only where the mask `elliptic` holds all this is certain to be a motion of that kind.
     """
 
     turning: DoubleDouble
@@ -126,7 +130,7 @@ class Pencil:
     def difference(self, i: Any, j: Any) -> DoubleDouble:
         """Return e_j - e_i, (m,), of axes i and j (0, 1, 2, or arrays (m,) of these) without cancellation.
 
-        It is z (I_i - I_j) e_i e_j.
+        It is z (I_i - I_j) e_i e_j, with e_i = 1/(z I_i + I1 I2 I3).
         """
         pick = self.pick
         return self.z * (pick(i, self.I) - pick(j, self.I)) * pick(i, self.e) * pick(j, self.e)
@@ -179,7 +183,8 @@ class Pencil:
 def roots_of_elliptic(*inputs: DoubleDouble) -> EllipticRoots:
     """Return the `EllipticRoots` of I1, I2, I3, B1, B2, B3, z and branch (1 or -1), which broadcast to (m,).
 
-    No row raises: where the motion is not certainly elliptic, `elliptic` is False and the rest without meaning.
+    z, in inertia^2, is the family's parameter, as in `Pencil`; the branch is the sign of v. No row raises: where the
+    motion is not certainly elliptic, `elliptic` is False and the rest without meaning.
     """
     pencil = Pencil(*inputs)
     pick, I, K, e, v = pencil.pick, pencil.I, pencil.K, pencil.e, pencil.v

@@ -67,7 +67,7 @@ class OnTorus:
 
     @property
     def b(self) -> arb:
-        """Length |B'| of the field, in units of `rate`, as a ball."""
+        """Length |B'| of the field, in units of `rate`, as a ball at the precision of the moment; 0 for a free body."""
         return arb(dot(self.field, self.field)).sqrt()
 
     @property

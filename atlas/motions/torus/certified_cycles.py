@@ -75,7 +75,8 @@ def cycles(motion: Integrals, lattice: Lattice) -> list[list[acb]]:
 def riemann_matrix(basis: list[list[acb]]) -> acb_mat:
     """Return the Riemann matrix tau (2, 2), complex balls, of a basis of cycles a1, a2, b1, b2, see `cycles`.
 
-    Raises NotCertifiedError where the periods have too few digits.
+    Of the four integrals of each cycle the first two count, (T_H, T_F): as columns, (b1 b2) = (a1 a2/2) tau, with
+    half of a2, for the basis is of type (1,2). Raises NotCertifiedError where the periods have too few digits.
     """
     (p, q, *_), (r, s, *_), (x, y, *_), (z, w, *_) = basis
     try:

@@ -108,11 +108,14 @@ class AsymmetricDrift:
 
 
 class TorusGrid:
-    """Grid of states (M, K) on the torus of one motion, (6, n1, n2), which follows its integrals.
+    """Grid of states (M, K) on the torus of one motion, (6, n1, n2); `follow` moves it to a torus of other integrals.
 
-    `states` is the grid, n2 = 1 for a free body; `integrals` are H, F and, in a field, c = (M, K) and K^2; `angles`
-    (1 or 2,) are the angles in rad about the field, or M, in each period. Times are in units of 1/`rate`, moments
-    in units of `unit`: powers of two. Raises DomainError for a motion without a torus in closed form.
+    It is made from the `motion` alone, an `AsymmetricMotion`, on whose torus it is at first, with FIRST_NODES along
+    each angle. `states` is the grid, n2 = 1 for a free body. `integrals` (r,) are the motion's [H, F, c, K^2], c =
+    (M, K), of a free body [H, F]; `follow` takes such an array, and leaves `integrals` as they are. `angles` (1 or
+    2,) are the angles in rad about the field, or M, in each period; in a field they are 0 before the first
+    `follow`. Times are in units of 1/`rate`, moments in units of `unit`: powers of two. Raises DomainError for a
+    motion without a torus in closed form.
     """
 
     def __init__(self, motion: AsymmetricMotion) -> None:

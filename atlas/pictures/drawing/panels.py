@@ -278,10 +278,15 @@ def write_names(axes: Axes, panel: Plane) -> None:
 def _requests(
     size: tuple[float, float], layer: Layer, places: Places, keyed: bool
 ) -> Iterator[tuple[str, FloatArray, tuple[float, float], str]]:
-    """Yield (text, positions (N, 2), offset, role) for each name of a layer to be written, in printer's points.
+    """Yield (text, positions (N, 2) or (2,), offset, role) for each name of a layer to be written, in printer's points.
 
-    Of several positions the first is the preferred one. `size` is the panel's (width, height), `places` maps
-    coordinates (N, 2) to positions. If `keyed`, labels of curves, points and regions are left to the legend.
+    Positions are from the lower left corner of the axes, y upwards; of several the first is the preferred one. The
+    offset (x, y) goes from there to the edge of the text; (0, 0) puts the text's middle there. The role is the
+    layer's, for colour and size of type, "note" for a region. Layers without a name, and curves outside the panel,
+    yield nothing.
+
+    `size` is the panel's (width, height), `places` maps coordinates (N, 2) to positions. If `keyed`, labels of curves,
+    points and regions are left to the legend.
     """
     if isinstance(layer, Label):
         yield layer.text, places(layer.at), layer.offset, layer.role

@@ -66,7 +66,8 @@ def still_picture(view: View, width: int, height: int) -> NDArray[np.uint8]:
 def _add(plotter: pv.Plotter, mesh: pv.PolyData, view: View, **options: Any) -> pv.Actor:
     """Add a mesh, given in the coordinates of the view, to the plotter and return its actor, shaded by its normals.
 
-    The points of `mesh` are changed to the scene's coordinates; `options` are those of `Plotter.add_mesh`.
+    The mesh must have the normals of its points; they hold in both coordinates, for the points of `mesh` itself are
+    only scaled and shifted, to the scene's coordinates. `options` are those of `Plotter.add_mesh`.
     """
     mesh.points = mesh.points * view.size + view.centre
     actor = plotter.add_mesh(mesh, show_scalar_bar=False, reset_camera=False, render=False, **options)

@@ -211,7 +211,10 @@ def draw_shaded(axes: Axes, panel: Space) -> None:
 
 
 def _ink(view: View) -> Iterator[tuple[FloatArray, float]]:
-    """Yield (points (N, 2) on paper, cost of covering one) of lines, arrows and marks of a shaded picture."""
+    """Yield (points (N, 2), cost of covering one of them) of lines, arrows and marks of a shaded picture.
+
+    The points are positions on paper, in printer's points from the panel's lower left corner, y upwards.
+    """
     for layer in view.panel.layers:
         if isinstance(layer, Curve):
             yield ink_points(view.on_paper(layer.points)), 3.0
