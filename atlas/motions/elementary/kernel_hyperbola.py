@@ -301,7 +301,7 @@ class Hyperbola(Shown):
         Raises
         ------
         DomainError
-            At the pole, for B2 = 0, and for an infinite omega2 or NaN, of any element.
+            At the pole, for B2 = 0, and for an infinite omega2 or NaN.
         AtlasError
             For an input that is no number.
         """
