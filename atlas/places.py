@@ -60,7 +60,7 @@ def cache_folder(out: Path) -> Path:
 
 @cache
 def _passing() -> Path:
-    """Return a temporary folder, the same at each call, that is removed when this process ends."""
+    """Return a temporary folder, made at the first call, the same at each, that is removed when this process ends."""
     folder = Path(tempfile.mkdtemp(prefix="atlas-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder

@@ -108,7 +108,7 @@ def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
 
 
 def sphere(motion: Any, field: Any) -> Space:
-    """Return panel (a), a `Space`: the unit sphere with the curve of K/b, hatched by arcs from the mean of K.
+    """Return panel (a), a `Space`: the unit sphere with the curve of K/b, hatched by great circles from the mean of K.
 
     K is the field in the body during a period of the elliptic `motion`, `field` (3,) its value at t = 0, b its length.
     """

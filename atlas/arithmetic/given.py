@@ -81,7 +81,10 @@ class Given:
 
 
 def _broadcast_index(shape: tuple[int, ...], index: Index) -> Index:
-    """Return the index in an array of this shape of the element that stands at ``index`` after broadcasting."""
+    """Return the index in an array of this shape of the element that stands at ``index`` after broadcasting.
+
+    ``index`` has a number for each axis of the result, which may have more axes than ``shape``, in front.
+    """
     return tuple(0 if n == 1 else i for n, i in zip(shape, index[len(index) - len(shape) :], strict=True))
 
 

@@ -376,7 +376,7 @@ class Phases:
         return product, head, half_turns, remainder
 
     def check(self, t: FloatArray) -> None:
-        """Raise AtlasError if a time is beyond `reach`, infinite or not a number."""
+        """Raise AtlasError if |t| of a time is larger than `reach`, or a time is infinite or not a number."""
         far_times = t[~((np.abs(t) <= self.reach) & np.isfinite(t))]
         if far_times.size:
             units = (

@@ -18,7 +18,7 @@ LENGTH_TOLERANCE, LENGTH_ROUNDING = 1e-3, 1e-6
 def of_matrix(R: Any) -> FloatArray:
     """Return a unit quaternion (x, y, z, w), the scalar last, for each rotation matrix (..., 3, 3): shape (..., 4).
 
-    Its sign is arbitrary.
+    Its sign is arbitrary. That the matrices are rotations is not checked.
     """
     quaternions = rows_of_matrix(R)
     return np.asarray(quaternions / np.sqrt((quaternions * quaternions).sum(-1))[..., None])

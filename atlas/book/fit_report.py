@@ -90,7 +90,10 @@ class Fitted:
         return re.sub(r"[^\w. +-]", "_", PurePath(self.words[1]).name)
 
     def sources(self) -> dict[str, str]:
-        """Return the texts of the report file NAME.md and of its picture's recipe NAME.py, by file name."""
+        """Return the texts of the report file NAME.md and of its picture's recipe NAME.py, by file name.
+
+        NAME is the page's `name`; nothing is written.
+        """
         return {
             f"{self.name}.md": templated(self.name, "fit.md", self.head(), self.values(), self.command),
             f"{self.name}.py": headed(self.name, self._recipe(), self.command),

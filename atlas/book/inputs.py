@@ -131,7 +131,8 @@ def read(declaration: Input, text: str) -> Any:
 def number(declaration: Input, text: str) -> float:
     """Return a typed number, such as "1.5", "3/2" or "2mT", as a float in the unit of an input.
 
-    Raises AtlasError for another text, another dimension of the unit, and a number out of range.
+    A number without a unit is in that unit. Raises AtlasError for a text that is no finite number, for a unit of
+    another dimension, and for a number out of the input's range.
     """
     amount, unit = split(text) or (text, declaration.unit)
     try:

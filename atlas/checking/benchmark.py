@@ -205,7 +205,7 @@ def by_method(runs: Iterable[Run]) -> dict[str, list[Run]]:
 def pairs(items: Iterable[Any], x: Callable[[Any], Any], y: Callable[[Any], Any]) -> FloatArray:
     """Return the points (x(item), y(item)), shape (N, 2), of N items, for logarithmic axes.
 
-    Values below 1e-18 become 1e-18; no items give the shape (0, 2).
+    Values below 1e-18 become 1e-18, NaN stays; no items give the shape (0, 2).
     """
     points = np.array([(x(item), y(item)) for item in items], dtype=np.float64).reshape(-1, 2)
     return np.asarray(np.maximum(points, 1e-18))

@@ -103,10 +103,10 @@ class Check:
         return asdict(self)
 
     def column_table(self) -> tuple[list[str], list[list[str]]]:
-        """Return (heading, rows) of the table of columns, five texts each.
+        """Return (heading, rows) of the table of columns, five texts each, one row for each column of the trajectory.
 
-        They are the column's name, its median and its least number of digits, the time of the latter, and the time
-        from which digits stay below the threshold, or "-".
+        They are the column's name, its median and its least number of correct digits, the time of the latter, and
+        the time from which digits stay below the threshold, or "-".
         """
         heading = ["column", "median digits", "worst digits", "at t", f"below {self.threshold:g} digits from t"]
         rows = [

@@ -498,7 +498,7 @@ def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[st
 
 
 def file_name(options: dict[str, Any]) -> str:
-    """Return the files' name from --name of the command's options, "" for none.
+    """Return the files' name, without an ending, from --name of the command's options, "" for none.
 
     Raises click.UsageError for characters other than letters, digits and . + - _.
     """

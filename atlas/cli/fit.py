@@ -96,7 +96,8 @@ def command(file: Path, **options: Any) -> int:
 def fitted(file: Path, options: dict[str, Any]) -> Any:
     """Return the `Fit` of a file with the command's options by name.
 
-    Raises AtlasError for a file or data that cannot be fitted, click.UsageError for a parameter given twice.
+    Raises AtlasError for a file or data that cannot be fitted, FileNotFoundError for a file that is not there, and
+    click.UsageError for a parameter given twice, by --fix, --start or both.
     """
     from atlas.fitting import fit_file
 

@@ -381,11 +381,11 @@ class Problem:
 def minimum(
     problem: Problem, x: FloatArray, *, steady: bool = False, ftol: float = 1e-5, count: int = 60
 ) -> tuple[FloatArray, FloatArray]:
-    """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) there.
+    """Return SciPy's least-squares solution (n,) from a start x (n,), and the Jacobian (N k, n) at the solution.
 
-    SciPy stops when a step lowers chi square by less than the fraction `ftol`, and after `count` evaluations of the
-    residuals, converged or not; with `steady` it stops at the start. With a robust loss the Jacobian is weighted by
-    SciPy.
+    N is the number of times, k that of the residuals at each. SciPy stops when a step lowers chi square by less
+    than the fraction `ftol`, and after `count` evaluations of the residuals, converged or not; with `steady` it
+    stops at the start. With a robust loss the Jacobian is weighted by SciPy.
     """
     from scipy.optimize import least_squares
 

@@ -307,7 +307,8 @@ def _riemann(vectors: NDArray[np.complex128], basis: Whole) -> NDArray[np.comple
 def _minkowski(vectors: NDArray[np.complex128], basis: Whole) -> Whole:
     """Return the symplectic ``basis`` (4, 4), integer rows in terms of the periods ``vectors``, with a small Im tau_12.
 
-    ``vectors`` (4, 2) are T_H and T_F. The basis is changed by at most MAX_REDUCTIONS single moves.
+    The rows are a1, a2, b1, b2; the columns of ``vectors`` (4, 2) are T_H and T_F. At most MAX_REDUCTIONS single moves
+    lead to the new basis; the given array is not changed.
     """
     for _ in range(MAX_REDUCTIONS):
         Y = _riemann(vectors, basis).imag

@@ -100,7 +100,10 @@ class Certified:
         return self._filled(self.exact.field_in_body, t, (3,), self.size, out)
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
-        """Write R at the exact numbers start + i step into ``out`` (count, 3, 3), rounded from balls."""
+        """Write R at the exact times start + i step, i = 0, 1, ..., into ``out`` (count, 3, 3), rounded from balls.
+
+        The times are in the unit of the motion's inputs.
+        """
         start_time, interval = rational(start, "The start"), rational(step, "The step")
         self._fill(self.exact.rotation, [start_time + i * interval for i in range(len(out))], 1.0, out)
 

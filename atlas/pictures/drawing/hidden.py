@@ -216,9 +216,9 @@ def _changes(surface: Surface, start: FloatArray, step: FloatArray, towards: Flo
 
 
 def _coefficients(quadric: FloatArray, a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return c0, c1, c2 (...) in F(a + s b) = c0 + c1 s + c2 s^2, F with the matrix ``quadric`` (4, 4).
+    """Return c0, c1, c2 (...) in F(a + s b) = c0 + c1 s + c2 s^2, F(x) = x Q x, Q the symmetric ``quadric`` (4, 4).
 
-    ``a`` (points) and ``b`` (directions) are homogeneous, (..., 4).
+    ``a`` (points, last component 1) and ``b`` (directions, 0) are homogeneous, (..., 4).
     """
     return _form(quadric, a, a), 2.0 * _form(quadric, a, b), _form(quadric, b, b)
 
