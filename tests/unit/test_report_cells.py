@@ -284,11 +284,13 @@ def test_the_cells_of_radiation() -> None:
 
 
 def test_the_cells_of_fits() -> None:
-    """Each kind on record: found in 97 % at least, and parameters within one standard error as often as they should."""
+    """Found in 97 % at least, fast spins in 90; within one standard error in 68 %, up to 5 or twice its error."""
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     rows = [(row["found"], row["within"], row["seconds"]) for row in record.values()]
-    assert len(rows) == 15
-    assert all(share >= 97 and 63 <= within <= 73 for share, within, _ in rows)
+    assert len(rows) == 16
+    for kind, row in record.items():
+        assert row["found"] >= (90 if "fast spins" in kind else 97)
+        assert abs(row["within"] - 68) <= (2 * row["error"] if "fast spins" in kind else 5)
     holds(compute("fits", Request((), {}, 2)), *rows)
 
 

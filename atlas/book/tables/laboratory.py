@@ -289,5 +289,8 @@ def fits() -> Data:
             for kind, row in record.items()
         ),
         "Fits of simulated measurements, 100 motions a row, without start values.",
-        ("500 times with an error of 0.01, unless stated otherwise; 68 % of parameters should lie within one error.",),
+        (
+            "500 times with an error of 0.01, unless stated otherwise; 68 % of parameters should lie within one error.",
+            "Fast spins: 30/time, measured during 20. The errors of one motion's parameters are correlated.",
+        ),
     )
