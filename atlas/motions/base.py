@@ -765,7 +765,7 @@ class Motion(Shown, Generic[Single]):
     def _evaluate_rows(
         self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
     ) -> None:
-        """Write function(rows, t, out) into ``out`` (m, ...), m the number of times, in blocks of `BLOCK` times.
+        """Fill ``out`` (m, ...), m the number of times, by calls function(rows, t, out) for `BLOCK` times each.
 
         Motions of shape ``own`` broadcast with ``times``, of any shape. Motions that `_rows` count as extreme are
         evaluated one by one.

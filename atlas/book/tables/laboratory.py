@@ -291,6 +291,6 @@ def fits() -> Data:
         "Fits of simulated measurements, 100 motions a row, without start values.",
         (
             "500 times with an error of 0.01, unless stated otherwise; 68 % of parameters should lie within one error.",
-            "Fast spins: 30/time, measured during 20. The errors of one motion's parameters are correlated.",
+            "Fast spins turn at about 30/time and are measured for a time of 20. Errors within one fit are correlated.",
         ),
     )
