@@ -151,12 +151,24 @@ def command(
 def _gallery(names: tuple[str, ...], out: Path, style: str | None, jobs: int | None) -> int:
     """Build the gallery of the recipes, all if none is named, and print its path; return 1 if a figure failed, else 0.
 
-    The parameters are options of the command.
+    The parameters are options of the command. The report that the gallery is made from is written to out/gallery.md.
     """
-    from atlas.book.building.gallery import build_gallery
+    from atlas.book.building.cache import Cache
+    from atlas.book.building.report import build_report
+    from atlas.files import write
+    from atlas.places import cache_folder
+    from atlas.sources import Sources
 
+    places = [str(Path(name).absolute()) if name.endswith(".py") else name for name in names] or ["*"]
+    recipes = [Path(place) for place in places if place.endswith(".py")]
+    version = Sources(Cache(cache_folder(out))).closure(recipes)
+    head = (
+        f'name = "gallery"\ntitle = "Gallery of figures"\ngallery = {places!r}\n# of recipes with the digest {version}'
+    )
+    source = out / "gallery.md"
+    write(source, f"+++\n{head}\n+++\n\n# All figures\n\nThey stand in the [gallery](gallery.html).\n")
     with bar("gallery") as tell:
-        built = build_gallery(names, out, tell, style=style, jobs=jobs)
+        built = build_report(source, out, tell, formats=("html",), style=style, jobs=jobs)
     click.echo(built.index.with_name("gallery.html"))
     for stem, failure in built.failures:
         click.echo(f"atlas: figure {stem}: {failure}", err=True)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import atlas
-from atlas.motions.information import expected_errors
+from atlas.book.measurement import expected_errors
 
 NAMES = ["ratio", "B1", "B2", "B3", "omega1", "omega2", "omega3"]
 T = np.linspace(0.0, 10.0, 101)[1:]

@@ -19,12 +19,11 @@ from atlas.book.card import ONE_PERIOD, card, thing_of
 from atlas.book.load import load
 from atlas.book.markdown import fenced, read
 from atlas.book.parts import Asked
-from atlas.book.verdict import stands, verdict
+from atlas.book.verdict import spins_on, stands, verdict
 from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, template_values, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
 from atlas.errors import AtlasError, FaultsError
-from atlas.motions.spin_stability import spins_on
 
 SHELL = (
     "--shape cylindrical-shell --radius 1um --height 0.9um --mass 1.5e-15kg --charge 2e-15C --magnetic 0.8T "
