@@ -3,10 +3,13 @@
 import operator
 from fractions import Fraction
 from math import isfinite
+from numbers import Rational
 from typing import Any, TypeAlias
 
+import numpy as np
 from flint import arb, fmpq
 
+from atlas.arithmetic.numbers import as_rational
 from atlas.errors import AtlasError, DomainError
 
 Real: TypeAlias = fmpq | arb
@@ -14,28 +17,34 @@ Real: TypeAlias = fmpq | arb
 
 
 def rational(value: Any, name: str) -> fmpq:
-    """Return a float, integer, fraction or decimal string as an exact rational number.
+    """Return a float, integer, fraction, decimal string or number of mpmath as an exact rational number.
 
     A float is taken exactly, so that 0.1 is 3602879701896397/2**55; the string "0.1" is 1/10. ``name`` stands in
-    errors: AtlasError for a value that is no finite real number, DomainError for infinity.
+    errors: AtlasError for a value that is no finite real number and for a ball of nonzero radius, DomainError for
+    infinity.
     """
     if isinstance(value, fmpq):
         return value
     if type(value) is float and isfinite(value):
         return fmpq(*value.as_integer_ratio())
-    if isinstance(value, bool):
+    value = value[()] if isinstance(value, np.ndarray) and not value.ndim else value
+    if isinstance(value, bool | np.bool_ | bytes):
         raise AtlasError(f"{name} must be a real number, not {value}.")
+    if isinstance(value, arb) and value.is_finite() and not value.is_exact():
+        raise AtlasError(f"{name} must be one number, not the ball {value}: give an exact one, such as its midpoint.")
     try:
+        if hasattr(value, "_mpf_"):  # a ball of flint, or a number of mpmath or SymPy
+            return as_rational(arb(value))
         if hasattr(value, "as_integer_ratio"):
             return fmpq(*value.as_integer_ratio())
         if hasattr(value, "__index__"):
             value = operator.index(value)
-        fraction = Fraction(value if isinstance(value, str | Fraction | int) else float(value))
+        fraction = Fraction(value if isinstance(value, str | Rational) else float(value))
+        return fmpq(int(fraction.numerator), int(fraction.denominator))
     except OverflowError as error:
         raise DomainError(f"{name} must be finite, not {value}.") from error
     except (TypeError, ValueError, ZeroDivisionError) as error:
         raise AtlasError(f"{name} must be a finite real number, not {value!r}.") from error
-    return fmpq(fraction.numerator, fraction.denominator)
 
 
 def rationals(values: Any, name: str, count: int) -> tuple[fmpq, ...]:

@@ -2,8 +2,10 @@
 
 from fractions import Fraction
 
+import mpmath
+import numpy as np
 import pytest
-from flint import fmpq
+from flint import arb, fmpq
 
 from atlas.arithmetic.certified_inputs import rational, rationals
 from atlas.bodies.body import SHAPES as CORE_SHAPES
@@ -37,6 +39,15 @@ def test_decimal_text_is_taken_exactly() -> None:
     assert rational(-0.0, "x") == 0
 
 
+def test_numbers_of_more_digits_than_a_float_are_taken_exactly() -> None:
+    """A number of mpmath and a ball of radius 0 lose no digit, an array without axes is its number."""
+    with mpmath.workdps(40):
+        long = mpmath.mpf(1) + mpmath.mpf(2) ** -100
+    one_more = 1 + fmpq(1, 2**100)
+    assert (rational(long, "x"), rational(arb(long), "x")) == (one_more, one_more)
+    assert rational(np.array(2.5), "x") == fmpq(5, 2)
+
+
 def test_the_quotient_of_a_body_is_exact() -> None:
     """A body of moments 3 and 1 has I = 1/3, which no float is."""
     assert ratio_of(SymmetricBody(3.0, 1.0)) == fmpq(1, 3)
@@ -44,11 +55,22 @@ def test_the_quotient_of_a_body_is_exact() -> None:
 
 @pytest.mark.parametrize(
     ("value", "words"),
-    [("two", "finite real number"), (float("nan"), "finite"), (float("inf"), "finite"), (True, "real"), (1j, "real")],
+    [
+        ("two", "finite real number"),
+        (float("nan"), "finite"),
+        (float("inf"), "finite"),
+        (mpmath.inf, "finite"),
+        (True, "real"),
+        (np.True_, "real"),
+        (b"1", "real"),
+        (1j, "real"),
+        (arb("inf"), "finite"),
+        (arb(1, 0.5), "one number, not the ball"),
+    ],
 )
 def test_non_numbers_are_refused_by_name(value: object, words: str) -> None:
     """The sentence names the argument."""
-    with pytest.raises(AtlasError, match=f"x must be a?.*{words}"):
+    with pytest.raises(AtlasError, match=f"x must be .*{words}"):
         rational(value, "x")
 
 

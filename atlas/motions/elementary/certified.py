@@ -120,10 +120,7 @@ class ElementaryMotion(DoubleTurn):
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), (84), three balls: the body's axis in the laboratory, at one exact time t.
-
-        The time is a number as for `rational`: a ball would be replaced by its middle.
-        """
+        """Return the third column of R(t), (84), three balls: the body's axis in the laboratory."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
