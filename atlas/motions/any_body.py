@@ -29,8 +29,10 @@ def motion(
     Parameters
     ----------
     inertia : float, SymmetricBody or array_like
-        Ratio I3/I2 or a SymmetricBody, with the axis along e3 or as its `axes` say; or an array of these. Principal
-        moments (I1, I2, I3) along the body's axes, or an inertia tensor (..., 3, 3), whose principal axes are found.
+        Ratio I3/I2 or a SymmetricBody, with the axis along e3 or as its `axes` say; a tuple of the principal moments
+        (I1, I2, I3) along the body's axes, numbers or arrays; or an inertia tensor, whose principal axes are found. An
+        array or a list of shape (..., 3, 3) has tensors, any other one of shape (..., 3) moments, and one of another
+        shape ratios: three ratios are given as ``SymmetricBody(1.0, ratios)``.
     field : array_like, shape (..., 3), or Field, optional
         Vector B' = mu B/(2c) in the laboratory, in 1/time; by default none. Arrays of components are given as a tuple
         of three arrays.

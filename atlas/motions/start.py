@@ -205,10 +205,11 @@ def _copied(value: Any) -> Any:
 
 
 def body_of(inertia: Any) -> Body:
-    """Return the `Body` of ``inertia``: a ratio, a SymmetricBody, three moments or tensors (..., 3, 3).
+    """Return the `Body` of ``inertia``: a SymmetricBody, a tuple of three moments, or an array.
 
-    Raises DomainError for values that no body has and for an array of which some bodies are symmetric, AtlasError for
-    another shape.
+    Arrays (..., 3, 3) are tensors, other arrays (..., 3) moments, all others ratios I3/I2; a list is an array. Raises
+    DomainError for values that no body has and for an array of which some bodies are symmetric, AtlasError for another
+    tuple.
     """
     if isinstance(inertia, SymmetricBody):
         I2, I3 = moments(inertia)
@@ -219,15 +220,19 @@ def body_of(inertia: Any) -> Body:
     if isinstance(inertia, Fraction):
         return of_moments((1.0, 1.0, moments(inertia)[1]), np.eye(3))._replace(exact=inertia)
     inertia_matrix = real(inertia, "The inertia", "" if is_ratio else INERTIA)
-    is_diagonal = inertia_matrix.shape == (3, 3) and not (inertia_matrix * (1 - np.eye(3))).any()
-    if is_diagonal or inertia_matrix.shape == (3,):
-        diagonal = tuple(inertia[i][i] for i in range(3)) if is_diagonal else tuple(inertia)
-        return of_moments(components(diagonal, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
-    if inertia_matrix.shape[-2:] != (3, 3):
-        if isinstance(inertia, tuple | list):
+    shape, entries = inertia_matrix.shape, inertia if isinstance(inertia, tuple | list | np.ndarray) else inertia_matrix
+    principal_moments: tuple[Any, ...] = ()
+    if shape == (3, 3) and not (inertia_matrix * (1 - np.eye(3))).any():
+        principal_moments = tuple(entries[i][i] for i in range(3))
+    elif shape[-1:] == (3,) and shape[-2:] != (3, 3):
+        principal_moments = tuple(entries) if len(shape) == 1 else tuple(np.moveaxis(inertia_matrix, -1, 0))
+    if principal_moments:
+        return of_moments(components(principal_moments, ("I1", "I2", "I3"), "The inertia", INERTIA), np.eye(3))
+    if shape[-2:] != (3, 3):
+        if isinstance(inertia, tuple):
             raise AtlasError(
-                f"The inertia is a ratio I3/I2, three moments (I1, I2, I3), a tensor (3, 3) or a SymmetricBody, not "
-                f"{reprlib.repr(inertia)}."
+                "The inertia as a tuple is three moments (I1, I2, I3) or a tensor (3, 3), not "
+                f"{reprlib.repr(inertia)}: give ratios I3/I2 as a list."
             )
         I2, I3 = moments(inertia_matrix)
         return of_moments((I2, I2, I3), np.eye(3))

@@ -140,6 +140,28 @@ def test_arrays_of_motions_have_a_kind_for_each_motion() -> None:
         assert motions.kind.shape == (2,)
 
 
+@pytest.mark.parametrize("ratios", [[1.5], [1.5, 0.7], [1.5, 0.7, 1.2, 0.3], [[1.5, 0.7], [1.2, 0.3]]])
+def test_a_list_of_ratios_is_an_array(ratios: list[Any]) -> None:
+    """Lists and arrays of any shape but (..., 3) are ratios; three ratios are so in a SymmetricBody."""
+    motions = atlas.motion(ratios, *FIELD_AND_START)
+    assert motions == atlas.motion(np.array(ratios), *FIELD_AND_START)
+    assert np.array_equal(
+        motions.rotation(1.0), atlas.motion(atlas.SymmetricBody(1.0, ratios), *FIELD_AND_START).rotation(1.0)
+    )
+
+
+@pytest.mark.parametrize("kind", [list, np.array])
+def test_three_numbers_last_are_moments(kind: Any) -> None:
+    """A list or an array (..., 3) has the moments of bodies, as a tuple of three arrays; one tensor is (3, 3)."""
+    rows = [[0.8, 1.0, 1.3], [0.7, 1.2, 0.9]]
+    motions = atlas.motion(kind(rows), *FIELD_AND_START)
+    assert motions.shape == (2,)
+    assert np.array_equal(
+        motions.rotation(1.0), atlas.motion(tuple(np.transpose(rows)), *FIELD_AND_START).rotation(1.0)
+    )
+    assert np.array_equal(motions.rotation(1.0)[0], atlas.motion(kind(rows[0]), *FIELD_AND_START).rotation(1.0))
+
+
 def test_arrays_have_each_motion_of_their_own() -> None:
     """Ratios, fields, starts and attitudes broadcast, with each other and with times."""
     rng, t = np.random.default_rng(4), np.linspace(-2, 2, 5)
