@@ -1,6 +1,7 @@
 """The ``atlas`` command: its subcommands, and its exit status after an error."""
 
 import codecs
+import errno
 import os
 import sys
 import warnings
@@ -19,6 +20,10 @@ from atlas.motions.register import FAMILIES
 LONG = 400
 """Characters of a word that an error repeats whole."""
 
+WRONG_PATH = {
+    errno.EACCES, errno.EISDIR, errno.ELOOP, errno.ENAMETOOLONG, errno.ENOENT, errno.ENOTDIR, errno.EPERM, errno.EROFS,
+}  # fmt: skip
+"""Numbers of system errors that another path would avoid; of others, such as a full disk, the machine is the cause."""
 
 CLICK = ("Missing ", "Got unexpected ", "No such ", "Option ")
 """Beginnings of errors of click's parser, which give no remedy."""
@@ -154,9 +159,9 @@ for name, says in {
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line with `arguments`, those of the process if None, and end the process.
 
-    The exit status is 0 if all went well, 1 if something failed, 2 for a wrong input, and as a shell counts them for
-    a process that a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM, and 141 (SIGPIPE)
-    where the reader of the output has gone.
+    The exit status is 0 if all went well, 1 if something failed, 2 for a wrong input, such as a path that cannot be
+    read or written, and as a shell counts them for a process that a signal ended: 130 SIGINT, 129 SIGHUP, 143 SIGTERM,
+    and 141 (SIGPIPE) where the reader of the output has gone.
     """
     if sys.stdout is None:
         sys.exit(complain("standard output is closed", 1))
@@ -177,7 +182,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         status = _reader_gone()
     except OSError as error:
         file = f": {error.filename}" if error.filename else ""
-        status = complain(f"{error.strerror or error}{file}", 1)
+        is_path = error.errno in WRONG_PATH
+        status = complain(f"{error.strerror or error}{file}{'; choose another path' * is_path}", 2 if is_path else 1)
     except MemoryError:
         status = complain("there is not enough memory; ask for fewer numbers at once", 1)
     except (KeyboardInterrupt, click.Abort) as error:

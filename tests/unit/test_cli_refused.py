@@ -412,12 +412,13 @@ def test_every_refusal_of_the_command_line_has_a_case(place: Path) -> None:
         (click.UsageError("wrong"), 2, "wrong"),
         (AtlasError("wrong"), 2, "wrong"),
         (OSError(28, "no space", "a.csv"), 1, "no space: a.csv"),
+        (PermissionError(13, "Permission denied", "a.csv"), 2, "Permission denied: a.csv; choose another path"),
         (KeyboardInterrupt(), 130, "interrupted"),
         (KeyboardInterrupt(signal.SIGTERM), 143, "interrupted"),
         (MemoryError(), 1, "there is not enough memory; ask for fewer numbers at once"),
         (AtlasError(f"{'a' * 400} {'b' * 401}"), 2, f"{'a' * 400} {'b' * 200}…{'b' * 100}"),  # long words are cut
     ],
-    ids=["usage", "input", "disk", "interrupt", "end", "memory", "long"],
+    ids=["usage", "input", "disk", "path", "interrupt", "end", "memory", "long"],
 )
 def test_every_failure_is_one_line_and_a_status(
     error: BaseException, status: int, says: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
