@@ -59,27 +59,28 @@ class RelativisticWarning(AtlasWarning):
     """A speed, in known units, exceeds a tenth of the speed of light, while the formulas are non-relativistic."""
 
 
-def tell_nearest(fault: str, taken: str) -> None:
-    """Issue a NearestInputWarning with the text FAULT; used instead is TAKEN.
+def tell_nearest(fault: str, replacement: str) -> None:
+    """Issue a NearestInputWarning with the text FAULT; used instead is REPLACEMENT.
 
-    `fault` describes the input that is impossible by its last digits, `taken` is the input used in its place.
+    `fault` describes the input that is impossible by its last digits, `replacement` is the input used in its place.
     """
-    warnings.warn(f"{fault}; used instead is {taken}.", NearestInputWarning, stacklevel=5)
+    warnings.warn(f"{fault}; used instead is {replacement}.", NearestInputWarning, stacklevel=5)
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """Return " (did you mean 'points'?)" with the one of the `known` words closest to `word`; "" if none is similar."""
-    close = get_close_matches(word, list(known), 1)
+def nearest(word: str, words: Iterable[str]) -> str:
+    """Return " (did you mean 'points'?)" with the one of `words` closest to `word`; "" if none is similar."""
+    close = get_close_matches(word, list(words), 1)
     return f" (did you mean {close[0]!r}?)" if close else ""
 
 
-def unknown(what: str, name: object, known: Iterable[str], where: str = "") -> AtlasError:
+def unknown(kind: str, name: object, valid_names: Iterable[str], context: str = "") -> AtlasError:
     """Return, without raising it, an error such as: there is no table 'point' (did you mean 'points'?); known: a, b.
 
-    `what` is the kind of thing ("table"), `name` the unknown name, `known` the valid names, and `where` an optional
-    phrase after the name such as "of the figure 'hyperbola'". The valid names are listed up to MAX_LISTED_NAMES of
-    them.
+    `kind` is a noun ("table"), `name` the unknown name, and `context` an optional phrase after the name such as
+    "of the figure 'hyperbola'". Valid names are listed up to MAX_LISTED_NAMES of them.
     """
-    names = list(known)
+    names = list(valid_names)
     listed = f"; known: {', '.join(names) or 'none'}" if len(names) <= MAX_LISTED_NAMES else ""
-    return AtlasError(f"there is no {what} {name!r}{f' {where}' if where else ''}{nearest(str(name), names)}{listed}.")
+    return AtlasError(
+        f"there is no {kind} {name!r}{f' {context}' if context else ''}{nearest(str(name), names)}{listed}."
+    )

@@ -37,9 +37,9 @@ def replacing(path: Path) -> Iterator[Path]:
     If the context is left by an exception, ``path`` stays as it was and the temporary file is removed (see
     `unfinished`).
     """
-    with unfinished(path) as part:
-        yield part
-        part.replace(path)
+    with unfinished(path) as draft:
+        yield draft
+        draft.replace(path)
 
 
 @contextmanager
@@ -48,11 +48,11 @@ def keeping(path: Path) -> Iterator[Path]:
 
     Then the new file is put beside ``path``, as NAME.new.SUFFIX, and AtlasError says so.
     """
-    with unfinished(path) as part:
-        yield part
+    with unfinished(path) as draft:
+        yield draft
         with turn(path.parent):
-            beside = settle({path.name: part}, path.parent)
-    tell(path.parent, beside)
+            substitutes = settle({path.name: draft}, path.parent)
+    tell(path.parent, substitutes)
 
 
 @contextmanager
@@ -63,18 +63,18 @@ def unfinished(path: Path) -> Iterator[Path]:
     removed. The temporary name holds the process number and ends as ``path`` does. An OSError names ``path``, not
     that name.
     """
-    part = _unfinished(path, os.getpid())
+    draft = _unfinished(path, os.getpid())
     try:
-        with named(path, part):
+        with named(path, draft):
             path.parent.mkdir(parents=True, exist_ok=True)
-            for left in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
-                pid = left.name.split("-")[1]
-                if left == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
-                    left.unlink(missing_ok=True)
-            yield part
+            for leftover in path.parent.glob(f".unfinished-*-{escape(path.name)}"):
+                pid = leftover.name.split("-")[1]
+                if leftover == _unfinished(path, pid) and pid.isdecimal() and not alive(int(pid)):
+                    leftover.unlink(missing_ok=True)
+            yield draft
     finally:
         with suppress(OSError):
-            part.unlink(missing_ok=True)
+            draft.unlink(missing_ok=True)
 
 
 def _unfinished(path: Path, pid: int | str) -> Path:
@@ -114,15 +114,15 @@ def exchange(new: Path, old: Path) -> bool:
 
 
 @contextmanager
-def named(path: Path, part: Path | None = None) -> Iterator[None]:
-    """Context that re-raises an OSError with the file name ``path``, if the error names no file or names `part`.
+def named(path: Path, draft: Path | None = None) -> Iterator[None]:
+    """Context that re-raises an OSError with the file name ``path``, if the error names no file or names `draft`.
 
     An OSError without an error number, or about another file, passes unchanged.
     """
     try:
         yield
     except OSError as error:
-        if error.errno is None or (error.filename and (part is None or Path(error.filename) != part)):
+        if error.errno is None or (error.filename and (draft is None or Path(error.filename) != draft)):
             raise
         raise OSError(error.errno, error.strerror, str(path)) from error
 
@@ -143,57 +143,57 @@ def check(path: Path) -> None:
 
     Missing folders are made.
     """
-    part = _unfinished(path, os.getpid())
+    draft = _unfinished(path, os.getpid())
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        part.touch()
-        part.unlink()
+        draft.touch()
+        draft.unlink()
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
 def write(path: Path, content: str | bytes) -> None:
     """Write a file as a whole, text as UTF-8, and replace an existing one. Missing folders are made."""
-    with replacing(path) as part:
-        part.write_bytes(content.encode() if isinstance(content, str) else content)
+    with replacing(path) as draft:
+        draft.write_bytes(content.encode() if isinstance(content, str) else content)
 
 
-def settle(parts: Mapping[str, Path], out: Path, known: Iterable[str] = ()) -> dict[str, str]:
-    """Move new files (`parts`, paths by final name) into the folder `out`, which this process holds by `turn`.
+def settle(drafts: Mapping[str, Path], out: Path, further_lines: Iterable[str] = ()) -> dict[str, str]:
+    """Move new files (`drafts`, paths by final name) into the folder `out`, which this process holds by `turn`.
 
-    A file there that is not as atlas wrote it, by the folder's digest list or by the further lines ``known`` of
-    such a list, stays: the new file is put beside it. Return the names used instead by intended name, {} if every
-    file took its place. Raises IsADirectoryError where a folder has a file's name.
+    A file there that is not as atlas wrote it, by the folder's digest list or by ``further_lines`` of such a list, stays:
+    the new file is put beside it. Return the names used instead by intended name, {} if every file took its place.
+    Raises IsADirectoryError where a folder has a file's name.
     """
-    made = {name: digest_of(part) or "" for name, part in parts.items()}
-    there = lines(out)
-    before = there | {line for line in known if line[66:] in made}
-    places = free(made, out, before)
+    digests = {name: digest_of(draft) or "" for name, draft in drafts.items()}
+    old_lines = lines(out)
+    before = old_lines | {line for line in further_lines if line[66:] in digests}
+    places = free(digests, out, before)
     names = {*places.values()}
     for name in names:
         if (out / name).is_dir():
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(out / name))
     after = {line for line in before if line[66:] not in names or not edited(out, line[66:], {line})}
-    after |= {f"{made[name]}  {one}" for name, place in places.items() for one in (name, place)}
-    if after != there:
+    after |= {f"{digests[name]}  {file}" for name, place in places.items() for file in (name, place)}
+    if after != old_lines:
         write(out / WRITTEN, listed(after))
         hide_notes(out)
-    for name, part in parts.items():
-        if digest_of(out / places[name]) != made[name]:
-            part.replace(out / places[name])
+    for name, draft in drafts.items():
+        if digest_of(out / places[name]) != digests[name]:
+            draft.replace(out / places[name])
     return {name: place for name, place in places.items() if place != name}
 
 
-def tell(out: Path, beside: Mapping[str, str]) -> None:
+def tell(out: Path, substitutes: Mapping[str, str]) -> None:
     """Raise AtlasError that names the files which `settle` put beside edited ones in the folder `out`; nothing if none.
 
-    `beside` is the result of `settle`: names used instead, by intended name.
+    `substitutes` is the result of `settle`: names used instead, by intended name.
     """
-    if beside:
-        told = "; ".join(
-            f"{out / old} is not as atlas wrote it: the new one is {Path(new).name}" for old, new in beside.items()
+    if substitutes:
+        faults = "; ".join(
+            f"{out / old} is not as atlas wrote it: the new one is {Path(new).name}" for old, new in substitutes.items()
         )
-        raise AtlasError(f"{told}.")
+        raise AtlasError(f"{faults}.")
 
 
 def lines(folder: Path) -> set[str]:
@@ -239,14 +239,14 @@ def edited(folder: Path, name: str, lines: set[str]) -> bool:
     return path.exists() and not path.is_dir() and f"{digest_of(path)}  {name}" not in lines
 
 
-def free(made: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
-    """Return the names to write in `folder`, by intended name, for new files with the digests `made`.
+def free(digests: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
+    """Return the names to write in `folder`, by intended name, for new files, whose `digests` are by name.
 
     That is the intended name itself, or NAME.new.SUFFIX where a file under that name is not in the digest list
     `lines` and differs from the new one.
     """
     places = {}
-    for name, digest in made.items():
+    for name, digest in digests.items():
         place = name
         while edited(folder, place, lines) and ((folder / place).is_symlink() or digest_of(folder / place) != digest):
             place = str(Path(place).with_suffix(f".new{Path(place).suffix}"))

@@ -61,15 +61,15 @@ def library() -> str | None:
         return choice
     file = _answer_file()
     try:
-        known = json.loads(file.read_text(encoding="utf-8"))[file.stem] if file else None
+        answer = json.loads(file.read_text(encoding="utf-8"))[file.stem] if file else None
     except (OSError, ValueError, KeyError, TypeError):
-        known = None  # there is none, or half of one: probe again
-    if known not in {*KNOWN, NONE}:
-        known = next((name for name in _candidates() if _draws(name)), NONE)
+        answer = None  # there is none, or half of one: probe again
+    if answer not in {*KNOWN, NONE}:
+        answer = next((name for name in _candidates() if _draws(name)), NONE)
         if file:
             with suppress(OSError):  # it is probed again next time
-                files.write(file, json.dumps({file.stem: known}))
-    return None if known == NONE else str(known)
+                files.write(file, json.dumps({file.stem: answer}))
+    return None if answer == NONE else str(answer)
 
 
 def prepare() -> str | None:
@@ -122,12 +122,12 @@ def _answer_file() -> Path | None:
 
     The name of the file holds a digest of what the answer depends on: libraries, drivers, versions, environment.
     """
-    seen = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
-    seen += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
+    dependencies = [sys.prefix, sys.platform, str(_vtk()), *os.uname()[1:5:3]] if hasattr(os, "uname") else [sys.prefix]
+    dependencies += [f"{key}={os.environ.get(key, '')}" for key in ("LD_LIBRARY_PATH", "LIBGL_DRIVERS_PATH", "DISPLAY")]
     for place in map(Path, ("/etc/ld.so.cache", "/dev/dri", *DRIVERS)):
         state = place.stat() if place.exists() else None
-        seen.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
-    key = hashlib.sha256(os.fsencode("\n".join(seen))).hexdigest()[:20]
+        dependencies.append(f"{place} {(state.st_mtime_ns, state.st_size) if state else None}")
+    key = hashlib.sha256(os.fsencode("\n".join(dependencies))).hexdigest()[:20]
     folder = own_folder()
     return folder / f"gl-{key}.json" if folder else None
 

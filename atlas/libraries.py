@@ -61,19 +61,19 @@ def versions() -> dict[str, str]:
     return {name: version for name in LIBRARIES if (version := release(name)) is not None}
 
 
-def of_sweeps(module: str, what: str) -> ModuleType:
+def of_sweeps(module: str, feature: str) -> ModuleType:
     """Return an imported module of the optional libraries of sweeps, such as "pandas"; a checkout installs them first.
 
-    Raises AtlasError, which says that `what` ("A data frame") needs the library, where it is missing and was not
+    Raises AtlasError, which says that `feature` ("A data frame") needs the library, where it is missing and was not
     installed.
     """
     try:
         return import_module(module)
     except ImportError as error:
         library = module.partition(".")[0]
-        if release(library) is None and _brought(f"{what} needs {library}"):
+        if release(library) is None and _brought(f"{feature} needs {library}"):
             return import_module(module)
-        raise AtlasError(f"{what} needs {library}: pip install 'atlas-charged-body[sweep]'.") from error
+        raise AtlasError(f"{feature} needs {library}: pip install 'atlas-charged-body[sweep]'.") from error
 
 
 def _brought(why: str) -> bool:
@@ -88,14 +88,14 @@ def _brought(why: str) -> bool:
     if Path(sys.prefix).resolve() != checkout / ".venv" or not (checkout / ".venv" / ".ready").exists():
         return False
     count = (checkout / "requirements-sweep.lock").read_text(encoding="utf-8").count("==")
-    said = f"{why}: {count} libraries of requirements-sweep.lock go into {checkout / '.venv'}"
+    message = f"{why}: {count} libraries of requirements-sweep.lock go into {checkout / '.venv'}"
     if sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty():
         import click
 
-        if not click.confirm(f"{said}. Install them now?", default=True, err=True):
+        if not click.confirm(f"{message}. Install them now?", default=True, err=True):
             return False
     else:
-        print(f"{said}.", file=sys.stderr)  # noqa: T201
+        print(f"{message}.", file=sys.stderr)  # noqa: T201
     done = subprocess.run(["make", "-s", "-C", checkout, ".venv/.sweep"], stdout=sys.stderr, check=False)  # noqa: S603, S607
     invalidate_caches()
     release.cache_clear()

@@ -57,16 +57,18 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
     factor, powers = _parsed(unit)
     option = "omega" if option == "sigma" and powers["s"] else option  # a standard error of rates
     units = WANTED.get(option, ())
-    known = (units,) if isinstance(units, str) else units
-    wanted = _parsed(known[min(place, len(known) - 1)])[1] if known else None
+    expected_units = (units,) if isinstance(units, str) else units
+    expected_powers = _parsed(expected_units[min(place, len(expected_units) - 1)])[1] if expected_units else None
     angle = {name: powers.pop(name) for name in ANGLES if powers.get(name)}
     allowed = {"turn": WANTED.get(option) == RATE or option == "times", "degree": option in ("angle", *WANTED)}
-    if powers != wanted or not all(allowed[name] for name in angle):
-        right = f"--{option} is in {' and '.join(known)}" if known else f"--{option} has no unit"
+    if powers != expected_powers or not all(allowed[name] for name in angle):
+        expectation = (
+            f"--{option} is in {' and '.join(expected_units)}" if expected_units else f"--{option} has no unit"
+        )
         alike = (name for name, units in WANTED.items() if isinstance(units, str) and _parsed(units)[1] == powers)
-        other = next(alike, None)
-        hint = f"; --{other} takes {unit.strip()!r}" if other and not angle else ""
-        raise AtlasError(f"{right}, or a unit that converts to it, not in {unit.strip()!r}{hint}.")
+        alternative = next(alike, None)
+        hint = f"; --{alternative} takes {unit.strip()!r}" if alternative and not angle else ""
+        raise AtlasError(f"{expectation}, or a unit that converts to it, not in {unit.strip()!r}{hint}.")
     value = number * factor
     exact = float(value)
     for name, power in angle.items():
@@ -74,16 +76,16 @@ def in_si(number: Fraction, unit: str, option: str, place: int = 0) -> tuple[flo
     return exact, None if angle else value
 
 
-def in_unit(number: Fraction, unit: str, wanted: str) -> float:
-    """Return `number` times `unit` expressed in the unit `wanted`, both texts such as "km/h"; angles may be left out.
+def in_unit(number: Fraction, unit: str, target: str) -> float:
+    """Return `number` times `unit` expressed in the unit `target`, both texts such as "km/h"; angles may be left out.
 
     Raises AtlasError for an unknown unit, or one of another dimension.
     """
-    (factor, powers), (size, right) = _parsed(unit), _parsed(wanted)
+    (factor, powers), (size, target_powers) = _parsed(unit), _parsed(target)
     value = number * factor / size
-    angles = {name: powers.pop(name, 0) - right.pop(name, 0) for name in ANGLES}
-    if powers != right:
-        raise AtlasError(f"the unit is {wanted or 'none'}, or a unit that converts to it, not {unit.strip()!r}.")
+    angles = {name: powers.pop(name, 0) - target_powers.pop(name, 0) for name in ANGLES}
+    if powers != target_powers:
+        raise AtlasError(f"the unit is {target or 'none'}, or a unit that converts to it, not {unit.strip()!r}.")
     return math.prod((ANGLES[name] ** power for name, power in angles.items() if power), start=float(value))
 
 
@@ -133,13 +135,13 @@ def _parsed(unit: str) -> tuple[Fraction, Counter[str]]:
     return factor, Counter({name: count for name, count in powers.items() if count})
 
 
-def _unit(name: str, whole: str) -> tuple[Fraction, dict[str, int]]:
-    for prefix, known in (("", name), (name[:1], name[1:])):
-        if known in UNITS and (not prefix or prefix in PREFIXES):
-            size, base = UNITS[known]
+def _unit(name: str, text: str) -> tuple[Fraction, dict[str, int]]:
+    for prefix, symbol in (("", name), (name[:1], name[1:])):
+        if symbol in UNITS and (not prefix or prefix in PREFIXES):
+            size, base = UNITS[symbol]
             powers = {
                 power.rstrip("-123456789"): int(power.lstrip("abcdefghijklmnopqrstuvwxyzCT") or 1)
                 for power in base.split()
             }
             return Fraction(size) * Fraction(10) ** PREFIXES.get(prefix, 0), powers
-    raise AtlasError(f"there is no unit {name!r} in {whole.strip()!r}; known: {', '.join(UNITS)}, with prefixes.")
+    raise AtlasError(f"there is no unit {name!r} in {text.strip()!r}; known: {', '.join(UNITS)}, with prefixes.")

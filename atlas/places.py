@@ -54,8 +54,8 @@ def cache_folder(out: Path) -> Path:
         return Path(chosen)
     if (build.parent / "pyproject.toml").is_file() and out.resolve().is_relative_to(build):
         return build / ".cache"
-    own = own_folder()
-    return _passing() if own is None else own / "built"
+    user_folder = own_folder()
+    return _passing() if user_folder is None else user_folder / "built"
 
 
 @cache

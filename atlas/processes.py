@@ -54,14 +54,14 @@ def prepare(module: str) -> str:
     return "forkserver"
 
 
-def _begin(more: Callable[[], Any] | None) -> None:
-    """Set up this worker process: default signal handlers, an end when its parent ends; then call `more` if given."""
+def _begin(initializer: Callable[[], Any] | None) -> None:
+    """Set up this worker process: default signal handlers, an end when its parent ends; then call `initializer`."""
     for number in ENDING:  # a fork has the handlers of the command line
         if callable(getsignal(number)):
             signal(number, SIG_DFL)
     Thread(target=_wait_for_parent, daemon=True).start()
-    if more is not None:
-        more()
+    if initializer is not None:
+        initializer()
 
 
 def _wait_for_parent() -> None:

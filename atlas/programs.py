@@ -28,10 +28,10 @@ def environment() -> dict[str, str]:
     return os.environ | {"LC_ALL": LOCALE}
 
 
-def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> subprocess.CompletedProcess[str]:
+def run(command: Sequence[str], seconds: int, text: str = "", **options: Any) -> subprocess.CompletedProcess[str]:
     """Run a program with `text` on its standard input, in a UTF-8 locale; return its CompletedProcess, output as text.
 
-    `more` are further arguments of subprocess.run. The program is killed when this process ends. Raises
+    `options` are further arguments of subprocess.run. The program is killed when this process ends. Raises
     TimeoutExpired after `seconds` of processor time, or PATIENCE_FACTOR times that of waiting. A failure is seen by
     its return code only.
     """
@@ -46,7 +46,7 @@ def run(command: Sequence[str], seconds: int, text: str = "", **more: Any) -> su
                 check=False,
                 timeout=PATIENCE_FACTOR * seconds,
                 preexec_fn=started if os.name == "posix" else None,
-                **{"env": environment()} | more,
+                **{"env": environment()} | options,
             )
         )
         answer = call.result()

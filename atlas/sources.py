@@ -29,12 +29,12 @@ DISTURBED = sys.version_info < (3, 11, 8)
 _PARSING = Lock()
 
 
-def digest(*parts: Any) -> str:
+def digest(*values: Any) -> str:
     """Return the SHA-256, 64 hexadecimal digits, of the values written as JSON; the same on every machine.
 
     Values that JSON cannot write are taken as their `str`.
     """
-    text = json.dumps(parts, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
+    text = json.dumps(values, sort_keys=True, ensure_ascii=True, allow_nan=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -47,9 +47,9 @@ class Sources:
 
     def __init__(self, cache: Any = None) -> None:
         self._cache = cache
-        self._known: dict[str, Any] = cache.load("sources") if cache else {}
+        self._cached_facts: dict[str, Any] = cache.load("sources") if cache else {}
         self._used: dict[str, Any] = {}
-        self._seen: dict[Path, dict[str, Any]] = {}
+        self._facts_by_path: dict[Path, dict[str, Any]] = {}
         self._modules = lru_cache(maxsize=None)(partial(_files, below=lru_cache(maxsize=None)(_below)))
 
     def reached(self, roots: Iterable[Path]) -> tuple[Path, ...]:
@@ -77,16 +77,16 @@ class Sources:
     def save(self) -> None:
         """Save the facts on files in the cache; from MAX_CACHED_SOURCES on, only those used in this process."""
         if self._cache is not None:
-            both = self._known | self._used
-            self._cache.save("sources", both if len(both) < MAX_CACHED_SOURCES else self._used)
+            facts = self._cached_facts | self._used
+            self._cache.save("sources", facts if len(facts) < MAX_CACHED_SOURCES else self._used)
 
     def _facts(self, path: Path) -> dict[str, Any]:
         """Return {"digest": hexadecimal text, "imports": dotted names of modules} of a file, which is read once."""
-        if path not in self._seen:
+        if path not in self._facts_by_path:
             content = path.read_bytes()
             key = path.suffix + hashlib.sha256(content).hexdigest()
-            self._seen[path] = self._used[key] = self._known.get(key) or _read(path, content)
-        return self._seen[path]
+            self._facts_by_path[path] = self._used[key] = self._cached_facts.get(key) or _read(path, content)
+        return self._facts_by_path[path]
 
 
 def _read(path: Path, content: bytes) -> dict[str, Any]:
@@ -95,8 +95,8 @@ def _read(path: Path, content: bytes) -> dict[str, Any]:
         tree = syntax_tree(content) if path.suffix == ".py" else None
     if tree is None:
         return {"digest": hashlib.sha256(content).hexdigest(), "imports": []}
-    said, imports = _facts_of(tree)
-    return {"digest": hashlib.sha256(said.encode()).hexdigest(), "imports": sorted(imports)}
+    text, imports = _facts_of(tree)
+    return {"digest": hashlib.sha256(text.encode()).hexdigest(), "imports": sorted(imports)}
 
 
 def syntax_tree(content: bytes, file: str = "<unknown>") -> ast.Module:
@@ -116,17 +116,17 @@ def _facts_of(tree: ast.AST) -> tuple[str, set[str]]:
     """
     lines, imports, waiting = list[str](), set[str](), list[Any]([tree])
     while waiting:
-        one = waiting.pop()
-        if isinstance(one, ast.AST):
-            lines.append(type(one).__name__)
-            waiting += [getattr(one, field, None) for field in one._fields]
-            if isinstance(one, ast.Import | ast.ImportFrom):
-                imports.update(_names(one))
-        elif isinstance(one, list):
-            lines.append(f"[{len(one)}")
-            waiting += one
+        node = waiting.pop()
+        if isinstance(node, ast.AST):
+            lines.append(type(node).__name__)
+            waiting += [getattr(node, field, None) for field in node._fields]
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                imports.update(_names(node))
+        elif isinstance(node, list):
+            lines.append(f"[{len(node)}")
+            waiting += node
         else:
-            lines.append(repr(one))
+            lines.append(repr(node))
     return "\n".join(lines), imports
 
 
@@ -154,15 +154,15 @@ def _files(name: str, below: Below) -> tuple[Path, ...]:
     A public name of the package adds the module that defines it, the bare name "atlas" all of these. `below` is
     `_below`, cached.
     """
-    first, *parts = name.split(".")
-    if first == "figures":
-        return tuple(path for part in parts[:1] if (path := folder("figures") / f"{part}.py").is_file())
-    homes = {parts[0]} if parts else set(_HOMES)
+    root, *segments = name.split(".")
+    if root == "figures":
+        return tuple(path for segment in segments[:1] if (path := folder("figures") / f"{segment}.py").is_file())
+    homes = {segments[0]} if segments else set(_HOMES)
     files, here = [PACKAGE / "__init__.py"], PACKAGE
     for public in homes & set(_HOMES):
         files += _files(_HOMES[public], below)
-    for part in parts:
-        package, module = below(here, part)
+    for segment in segments:
+        package, module = below(here, segment)
         if package:
             files.append(package)
             here = package.parent

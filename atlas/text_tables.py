@@ -172,14 +172,14 @@ def _with_units(
 
     A name is then "t [ms]", and the line of units is not among the lines.
     """
-    first = next(lines, None)
-    if first is None:
+    first_line = next(lines, None)
+    if first_line is None:
         return names, lines
-    units = [cell.strip(' "[]()') for cell in first[1].split(None if separator == " " else separator)]
+    units = [cell.strip(' "[]()') for cell in first_line[1].split(None if separator == " " else separator)]
     filled = {unit for unit in units if unit not in ("", "-", "1")}
     if filled and all(is_unit(heading(f"[{unit}]")[1]) for unit in filled):
         return [f"{name} [{unit}]" if unit in filled else name for name, unit in zip(names, units, strict=False)], lines
-    return names, chain([first], lines)
+    return names, chain([first_line], lines)
 
 
 def _with_points(names: list[str], rows: Iterator[tuple[int, list[str]]], file: str) -> Iterator[tuple[int, list[str]]]:
