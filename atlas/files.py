@@ -161,7 +161,7 @@ def write(path: Path, content: str | bytes) -> None:
 def settle(drafts: Mapping[str, Path], out: Path, further_lines: Iterable[str] = ()) -> dict[str, str]:
     """Move new files (`drafts`, paths by final name) into the folder `out`, which this process holds by `turn`.
 
-    A file there that is not as atlas wrote it, by the folder's digest list or by ``further_lines`` of such a list, stays:
+    A file there that is not as atlas wrote it, by the folder's digest list or by `further_lines` of such a list, stays:
     the new file is put beside it. Return the names used instead by intended name, {} if every file took its place.
     Raises IsADirectoryError where a folder has a file's name.
     """

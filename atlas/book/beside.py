@@ -22,7 +22,9 @@ class Beside:
 
         The list is [] where none has one; it is also stored in `answers`.
         """
-        answer = self.answers[f"{kind} {name}"] = [one[kind][name] for one in self.outlines if name in one[kind]]
+        answer = self.answers[f"{kind} {name}"] = [
+            outline[kind][name] for outline in self.outlines if name in outline[kind]
+        ]
         return answer
 
     def agrees(self, answers: Mapping[str, list[Any]]) -> bool:

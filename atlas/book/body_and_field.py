@@ -238,7 +238,7 @@ def _charge_to_mass(body_record: Body | None, field_record: Field) -> float | Fr
 def parameters(known_records: BodiesAndFields) -> list[str]:
     """Return lines of Markdown, one for each body, then one for each field: "title: name = value unit, ..."."""
     fields = [*known_records.fields.values()]
-    is_gaussian = bool(fields) and all(one.system == "Gaussian" for one in fields)
+    is_gaussian = bool(fields) and all(field.system == "Gaussian" for field in fields)
     records: list[Body | Field] = [*known_records.bodies.values(), *fields]
     return [
         f"{record.title}: {_written_out(record, is_gaussian and getattr(record, 'charge', None) is not None)}"

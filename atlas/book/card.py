@@ -62,8 +62,8 @@ def numbers(family: Family, arguments: Mapping[str, Any]) -> dict[str, float]:
     Rates are in rad/time, times in time, angles in rad. A number that the motion does not have is left out.
     """
     motion = family.kernels()(*arguments.values())
-    found = {one.key: _in_doubles(one.key, family, motion, arguments)[0] for one in ENTRIES}
-    return {key: value for key, value in found.items() if value is not None}
+    values = {entry.key: _in_doubles(entry.key, family, motion, arguments)[0] for entry in ENTRIES}
+    return {key: value for key, value in values.items() if value is not None}
 
 
 def _in_doubles(key: str, family: Family, motion: Any, arguments: Mapping[str, Any]) -> tuple[float | None, str]:
@@ -158,23 +158,23 @@ def _of_field(key: str, arguments: Mapping[str, Any], functions: Any) -> Any:
     Of a top the field's direction counts for the angle. `functions` is `math` or `Balls`. Raises DomainError
     without a field, and for |B'| of a top. `arguments` are the family's inputs by name.
     """
-    *across, along = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
-    if not any((*across, along)):
+    *transverse, axial = map(Fraction, arguments.get("field") or arguments.get("direction") or (0.0,))
+    if not any((*transverse, axial)):
         raise DomainError(NO_FIELD)
     if key == "tilt":
-        return functions.atan2(functions.sqrt(sum(x * x for x in across)), along)
+        return functions.atan2(functions.sqrt(sum(x * x for x in transverse)), axial)
     if "field" not in arguments:
         raise DomainError("a top has its weight and coupling in the place of a field")
-    return functions.sqrt(sum(x * x for x in (*across, along)))
+    return functions.sqrt(sum(x * x for x in (*transverse, axial)))
 
 
-def _words(one: Entry, centre: str, motion: Any) -> str:
+def _words(entry: Entry, centre: str, motion: Any) -> str:
     """Return the words of an entry, "the field" replaced by `centre`, the direction about which the axis precesses.
 
     For a free body of three moments "body's axis" becomes the axis of the motion's mode, "long axis" or "short
     axis". `motion` is the object in doubles.
     """
-    says = one.says.replace("the field", centre)
+    says = entry.says.replace("the field", centre)
     if centre == "the vertical":
         says = says.replace("B\N{PRIME}", centre)
     with suppress(AtlasError, AttributeError):
@@ -187,10 +187,10 @@ def _pole(key: str, arguments: Mapping[str, Any]) -> str:
 
     It says that the rate is the mean of those on both sides of the pole. `arguments` are the family's inputs by name.
     """
-    *across, along = arguments.get("field") or arguments.get("direction") or (0.0,)
+    *transverse, axial = arguments.get("field") or arguments.get("direction") or (0.0,)
     W1, W2, *_ = arguments.get("omega") or (0.0, 0.0)
     symmetric = "ratio" in arguments or "direction" in arguments
-    through = key in {"turn", "spin"} and symmetric and along and not any(across) and any((W1, W2))
+    through = key in {"turn", "spin"} and symmetric and axial and not any(transverse) and any((W1, W2))
     return ", by the mean of the rates on both sides of the pole, through which the axis goes" * bool(through)
 
 
@@ -266,31 +266,31 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
     item = thing_of(request)
     names = [p.name for p in request.family.parameters]
     exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
-    motion, centre, made = item.kernels(), centre_of(request), dict[str, dict[str, Any]]()
+    motion, centre, records = item.kernels(), centre_of(request), dict[str, dict[str, Any]]()
     try:
         twin = item.balls()
     except AtlasError:
         twin = None
-    for one in ENTRIES:
-        value, text = _proven(one.key, item, twin, exact, request.digits)
+    for entry in ENTRIES:
+        value, text = _proven(entry.key, item, twin, exact, request.digits)
         reason = None
         if value is None:
-            value, reason = _in_doubles(one.key, request.family, motion, floats)
-        equation = one.equation if request.family.takes("ratio") else ""
-        entry: dict[str, Any] = {
-            "says": _words(one, centre, motion) + _pole(one.key, floats), "letter": one.letter,
-            "value": value, "unit": _unit(one.unit, request.time),
-            "sigma": (request.sigma or {}).get(one.key), "digits": None, "proven_digits": 0,
+            value, reason = _in_doubles(entry.key, request.family, motion, floats)
+        equation = entry.equation if request.family.takes("ratio") else ""
+        record: dict[str, Any] = {
+            "says": _words(entry, centre, motion) + _pole(entry.key, floats), "letter": entry.letter,
+            "value": value, "unit": _unit(entry.unit, request.time),
+            "sigma": (request.sigma or {}).get(entry.key), "digits": None, "proven_digits": 0,
             "equation": equation or None, "reason": None,
         }  # fmt: skip
         if value is None:
-            entry |= {"unit": None, "reason": reason}
+            record |= {"unit": None, "reason": reason}
         else:
-            entry |= {"digits": text or f"{value:.10g}", "proven_digits": significant(text)}
-        if entry["sigma"] == math.inf:
-            entry |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
-        made[one.key] = entry
-    return made
+            record |= {"digits": text or f"{value:.10g}", "proven_digits": significant(text)}
+        if record["sigma"] == math.inf:
+            record |= {"sigma": None, "proven_digits": 0, "reason": "the errors of the inputs tell no deviation of it"}
+        records[entry.key] = record
+    return records
 
 
 def _unit(unit: str, time: str) -> str:
@@ -321,8 +321,8 @@ def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: 
         return None, ""
     from atlas.arithmetic.numbers import nearest
 
-    shown = quantity(value, digits)
-    return (nearest(Balls.ball(value)), shown.digits.removesuffix(MARK)) if shown.proven else (None, "")
+    decimal = quantity(value, digits)
+    return (nearest(Balls.ball(value)), decimal.digits.removesuffix(MARK)) if decimal.proven else (None, "")
 
 
 def thing_of(request: Asked) -> Thing:

@@ -53,16 +53,16 @@ class Resource:
     rows: Sequence[Sequence[str]]
 
 
-def package(document: Document, drawn: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
+def package(document: Document, figure_data: Mapping[str, str], *, parquet: bool = True) -> dict[str, bytes]:
     """Return the files of a report's data, contents by path: a CSV and, if `parquet`, a Parquet file for each table.
 
-    `drawn` holds each figure's data as CSV, by its anchor; these become tables too. A JSON file, `datapackage.json`,
-    describes the tables. Raises AtlasError where pyarrow, which writes Parquet, is missing.
+    `figure_data` holds each figure's data as CSV, by its anchor; these become tables too. A JSON file,
+    `datapackage.json`, describes the tables. Raises AtlasError where pyarrow, which writes Parquet, is missing.
     """
     files, resources = dict[str, bytes](), []
     texts = [text.markdown for text in document.texts.texts]
     tables = (_table(table, texts) for table in document.listed("table"))
-    for resource in (*tables, *_figures(document, texts, drawn)):
+    for resource in (*tables, *_figures(document, texts, figure_data)):
         for kind, write in {"csv": _csv, **({"parquet": _parquet} if parquet else {})}.items():
             content = write(resource)
             path = f"{resource.name}.{kind}"
@@ -150,7 +150,7 @@ def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str])
         if figure.id not in files:
             continue
         lines = files[figure.id].splitlines()
-        said = [line.removeprefix("# ") for line in lines if line.startswith("# ")]
+        comments = [line.removeprefix("# ") for line in lines if line.startswith("# ")]
         heading, *rows = csv.reader(line for line in lines if not line.startswith("#"))
         numbers = {"panel": "integer", "layer": "integer"} | dict.fromkeys(("x", "y", "z", "value"), "number")
         fields = [{"name": name, "type": numbers.get(name, "string")} for name in heading]
@@ -159,7 +159,7 @@ def _figures(document: Document, texts: Sequence[str], files: Mapping[str, str])
             "title": f"Figure {figure.number}",
             "description": words(caption),
             "equations": [name for name in EQUATIONS if name in citations(caption)],
-            "axes": [line for line in said if line.startswith("panel ")],
+            "axes": [line for line in comments if line.startswith("panel ")],
             "parameters": dict(picture.given),
             "command": picture.command,
         }

@@ -113,8 +113,8 @@ class Report(StrictStruct, frozen=True):
         """
         number = self.pages.index(page)
         line = self.source.lines.get((number,) if block is None else (number, block))
-        there = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"
-        return there if block is None else f"{there}, block {block + 1} ({kind_of(page.blocks[block])})"
+        prefix = f"{self.source.file or self.name}{f', line {line}' if line else ''}: page {page.slug!r}"
+        return prefix if block is None else f"{prefix}, block {block + 1} ({kind_of(page.blocks[block])})"
 
     @property
     def bound(self) -> bool:

@@ -33,10 +33,10 @@ class Number:
         if not self.digits:
             return "?", "", ""
         mantissa, _, power = self.digits.lower().partition("e")
-        whole, point, fraction = mantissa.replace("-", MINUS).partition(".")
+        integer, point, fraction = mantissa.replace("-", MINUS).partition(".")
         step = 3 if len(fraction) > 4 else 4
         grouped = THIN.join(fraction[i : i + step] for i in range(0, len(fraction), step))
-        return whole, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
+        return integer, point + grouped, str(int(power)).replace("-", MINUS) if int(power or 0) else ""
 
     def words(self) -> str:
         """Return the number as Markdown for a sentence: "?" without digits, "1.2×10^5^" if far from 1, else a decimal.
@@ -85,7 +85,7 @@ def shown(value: Any) -> str:
     return mantissa.replace("-", MINUS) + raised
 
 
-def spaced(typed: str) -> str:
+def spaced(number: str) -> str:
     """Return a typed number as read in a title: "1.2 µm" for "1.2um", "30°" for "30deg"."""
-    text = re.sub(r"^([-+.\d()]+(?:e[-+]?\d+)?+)(?=[a-zA-Z])", r"\1 ", typed)
+    text = re.sub(r"^([-+.\d()]+(?:e[-+]?\d+)?+)(?=[a-zA-Z])", r"\1 ", number)
     return re.sub(" deg$", "\N{DEGREE SIGN}", re.sub(" u(?=[a-zA-Z])", " \N{MICRO SIGN}", text))

@@ -22,7 +22,7 @@ from atlas.trial.ledger.plain import plain
 
 THEOREMS = {
     name: f"(T{number})"
-    for number, name in enumerate((name for name, one in EQUATIONS.items() if one.kind == "theorem"), 1)
+    for number, name in enumerate((name for name, equation in EQUATIONS.items() if equation.kind == "theorem"), 1)
 }
 """Numbers of the results that are not in the paper, in the order of the ledger."""
 

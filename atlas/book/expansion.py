@@ -95,13 +95,13 @@ def fill(values: Mapping[str, Any], head: Any, body: str) -> dict[str, Any]:
 
 def joined(pieces: Iterable[str]) -> str:
     """Return the joined pieces of a text. Raises ExpansionError above MAX_LENGTH characters."""
-    kept, length = list[str](), 0
+    texts, length = list[str](), 0
     for piece in pieces:
-        kept.append(piece)
+        texts.append(piece)
         length += len(piece)
         if length > MAX_LENGTH:
             raise ExpansionError(f"the report grows beyond {MAX_LENGTH} characters: let the loops of its template end.")
-    return "".join(kept)
+    return "".join(texts)
 
 
 def mapped(value: Any, function: Callable[[str], Any]) -> Any:

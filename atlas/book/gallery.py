@@ -72,7 +72,8 @@ def page(composer: "Composer") -> PageView:
     rows: dict[str, list[Plate]] = {row: [] for row in (*recipes.ROWS, "")}
     for name in document.report.gallery:
         picture = min(
-            (one for one in document.pictures.values() if one.recipe == name), key=lambda one: one.renderer != "vector"
+            (candidate for candidate in document.pictures.values() if candidate.recipe == name),
+            key=lambda candidate: candidate.renderer != "vector",
         )
         if not picture.failure:
             recipe = recipes.load(name)

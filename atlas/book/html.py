@@ -61,8 +61,8 @@ def pages(document: Document) -> dict[str, str]:
         "document": document,
         "texts": texts,
         "report": document.report,
-        "cover": document.report.cover and _drawn(document, document.report.cover, "cover"),
-        "still": partial(_drawn, document, key="still"),
+        "cover": document.report.cover and _card_of(document, document.report.cover, "cover"),
+        "still": partial(_card_of, document, key="still"),
         "cards": cards(document),
     }
     views = document.pages
@@ -158,7 +158,7 @@ def thumbnail(png: bytes, cut: Thumbnail) -> bytes:
     return out.getvalue()
 
 
-def _drawn(document: Document, name: str, key: str) -> Card | None:
+def _card_of(document: Document, name: str, key: str) -> Card | None:
     """Return the `Card` of the figure with the id `name`; None if the figure failed.
 
     Raises AtlasError, which begins with `key`, if there is no such figure.

@@ -38,11 +38,11 @@ class Input(StrictStruct, frozen=True):
     @property
     def takes(self) -> str:
         """Text of the kind, unit, range and choices, such as "number, in T, from 0 to 2"."""
-        parts = [self.kind if self.count is None else f"{self.count} numbers"]
-        parts += [f"in {self.unit}"] * bool(self.unit)
-        parts += [f"from {self.range[0]:g} to {self.range[1]:g}"] if self.range else []
-        parts += [f"one of {', '.join(self.choices)}"] * bool(self.choices)
-        return ", ".join(parts)
+        phrases = [self.kind if self.count is None else f"{self.count} numbers"]
+        phrases += [f"in {self.unit}"] * bool(self.unit)
+        phrases += [f"from {self.range[0]:g} to {self.range[1]:g}"] if self.range else []
+        phrases += [f"one of {', '.join(self.choices)}"] * bool(self.choices)
+        return ", ".join(phrases)
 
 
 def declared(path: Path) -> dict[str, Input]:
@@ -74,8 +74,8 @@ def declared(path: Path) -> dict[str, Input]:
     return msgspec.convert(tables, dict[str, Input])
 
 
-def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
-    """Return the value of each input of a report by name: from its `given` text, or else its default.
+def evaluated(path: Path, texts: Mapping[str, str]) -> dict[str, Any]:
+    """Return the value of each input of a report by name: from its text in `texts`, or else its default.
 
     Values are as `read` returns them.
 
@@ -85,10 +85,10 @@ def evaluated(path: Path, given: Mapping[str, str]) -> dict[str, Any]:
         For all unknown names, missing inputs, and wrong kinds, units and ranges at once, each in a line.
     """
     inputs, values = declared(path), dict[str, Any]()
-    faults = [(name, str(unknown("input", name, inputs))) for name in given if name not in inputs]
+    faults = [(name, str(unknown("input", name, inputs))) for name in texts if name not in inputs]
     for name, declaration in inputs.items():
         default = text_of(declaration.default) if declaration.default is not None else None
-        text = given.get(name, default)
+        text = texts.get(name, default)
         if text is None:
             faults.append((name, f"it is required; give it by --set {name}=VALUE, {declaration.takes}."))
             continue
@@ -161,8 +161,8 @@ def line_of(path: Path, name: str) -> int:
     """Return the line, from 1, where a head declares an input; for an unknown one the line of [inputs], else 1."""
     lines = files.text_of(path).split("\n")
     patterns = (rf"\s*(\[inputs\.{re.escape(name)}\]|{re.escape(name)}\s*=)", r"\s*\[?inputs\b")
-    found = (k for pattern in patterns for k, line in enumerate(lines, 1) if re.match(pattern, line))
-    return next(found, 1)
+    matches = (k for pattern in patterns for k, line in enumerate(lines, 1) if re.match(pattern, line))
+    return next(matches, 1)
 
 
 def digest(values: Mapping[str, Any]) -> str:
@@ -176,7 +176,11 @@ def name_of(path: Path, values: Mapping[str, Any]) -> str:
     `values` are those of all inputs, by name.
     """
     inputs = declared(path)
-    defaults = {name: read(one, text_of(one.default)) for name, one in inputs.items() if one.default is not None}
+    defaults = {
+        name: read(declaration, text_of(declaration.default))
+        for name, declaration in inputs.items()
+        if declaration.default is not None
+    }
     return path.stem if dict(values) == defaults else f"{path.stem}-{digest(values)}"
 
 
@@ -208,5 +212,5 @@ def filled(text: str, values: Mapping[str, Any], *, markdown: bool) -> tuple[dic
 
 def records(path: Path) -> Iterator[dict[str, Any]]:
     """Yield a dict for each input of a report, with name, kind, unit, range, choices, default and help."""
-    for name, one in declared(path).items():
-        yield {"name": name} | {key: getattr(one, key) for key in one.__struct_fields__}
+    for name, declaration in declared(path).items():
+        yield {"name": name} | {key: getattr(declaration, key) for key in declaration.__struct_fields__}

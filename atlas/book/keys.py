@@ -80,4 +80,4 @@ def _keys(kind: Any) -> Iterator[str]:
         yield f"**`{key.name}`**" if key.required else left_out
 
 
-TABLES.update({made.__name__: made for made in (layers, blocks, report_keys)})
+TABLES.update({module.__name__: module for module in (layers, blocks, report_keys)})

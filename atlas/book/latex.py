@@ -163,18 +163,18 @@ def _body(document: Document, texts: Sequence[str], wide: AbstractSet[str]) -> I
         text = rf"\section{{{_heading(texts[page.heading], page.title)}}}" + "\n"
         displayed = False
         for equations, run in groupby(page.placed, lambda pair: isinstance(pair[1], EquationView)):
-            parts = [_block(name, block, texts) for name, block in run]
-            floats = groupby(parts, lambda piece: piece.startswith(r"\input{"))
-            parts = [
+            pieces = [_block(name, block, texts) for name, block in run]
+            floats = groupby(pieces, lambda piece: piece.startswith(r"\input{"))
+            pieces = [
                 piece
                 for floating, group in floats
                 for piece in (sorted(group, key=lambda piece: f"{piece[7:-1]}.tex" in wide) if floating else group)
             ]
             if equations:
-                text += "\n\\atlasequations{%\n" + "%\n".join(parts) + "}"
+                text += "\n\\atlasequations{%\n" + "%\n".join(pieces) + "}"
             else:
-                goes_on = displayed and re.match(r"(\\emph\{)?[a-z]", parts[0]) is not None
-                text += ("\n" if goes_on else "\n\n") + "\n\n".join(parts)
+                goes_on = displayed and re.match(r"(\\emph\{)?[a-z]", pieces[0]) is not None
+                text += ("\n" if goes_on else "\n\n") + "\n\n".join(pieces)
             displayed = equations
         yield text
 

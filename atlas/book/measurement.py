@@ -50,16 +50,16 @@ CAPTION = (
 
 
 def measurement_of(
-    request: Asked, made: Mapping[str, Mapping[str, Any]], left_out: list[str]
+    request: Asked, card: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
     """Yield the listing block of a proposed measurement; where there is none, add the reason to `left_out`.
 
     The listing has a row for each input of body, field and start: its letter, its standard deviations from 100 readings
-    of attitudes, of the third axis and of rates in the body over 5 turns, and its unit. `made` is the card of the
+    of attitudes, of the third axis and of rates in the body over 5 turns, and its unit. `card` is that of the
     request. Nothing is yielded or added for an object without a card, a start or a turn.
     """
-    rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := made[key]["value"])]
-    turn = made["turn"]["value"] or made["nutation"]["value"] or max(rates, default=0.0)
+    rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := card[key]["value"])]
+    turn = card["turn"]["value"] or card["nutation"]["value"] or max(rates, default=0.0)
     if request.family.takes("coupling"):
         left_out.append("What to measure: errors are foreseen of bodies in a field or free, not yet of tops.")
         return
@@ -85,9 +85,9 @@ def measurement_of(
         left_out.append(f"What to measure: {reason}")
         return
     rows = [
-        [NAMES[name][0], *(Number(f"{x:.2g}").words() if np.isfinite(x) else NONE for x in found),
+        [NAMES[name][0], *(Number(f"{x:.2g}").words() if np.isfinite(x) else NONE for x in errors),
          NAMES[name][1].replace("time", unit)]
-        for name, found in zip(names, np.transpose(columns), strict=True)
+        for name, errors in zip(names, np.transpose(columns), strict=True)
     ]  # fmt: skip
     caption = CAPTION.format(READINGS, t[-1], unit.replace("time", "units of time"), SIGMA, rate, f"1/{unit}")
     if error > ROUNDING:

@@ -72,9 +72,9 @@ class Asked:
 
         The page's family stands first for tops only, whose options do not tell it; defaults are left out.
         """
-        own = {"title": self.title, "name": self.called, "digits": self.digits if self.digits != 10 else "",
+        settings = {"title": self.title, "name": self.called, "digits": self.digits if self.digits != 10 else "",
                "only": self.only}  # fmt: skip
-        options = [word for name, value in own.items() if value for word in (f"--{name}", str(value))]
+        options = [word for name, value in settings.items() if value for word in (f"--{name}", str(value))]
         return [*[self.family.page] * self.family.takes("coupling"), *self.typed, *options]
 
     @property
@@ -180,7 +180,7 @@ def _typeset(value: str) -> str:
 def other_families(family: Family) -> list[Family]:
     """Return the families with a ratio and a field all of whose parameters this family has too, without itself."""
     names = {p.name for p in family.parameters}
-    parameters = {other.name: {p.name for p in other.parameters} for other in FAMILIES.values() if other is not family}
+    parameters = {f.name: {p.name for p in f.parameters} for f in FAMILIES.values() if f is not family}
     return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
 
 
@@ -246,9 +246,9 @@ def figures_of(
     from atlas.pictures import recipes
 
     case, reasons = case_of(request), dict[str, list[str]]()
-    for name, given in recipes_of.items():
+    for name, overrides in recipes_of.items():
         recipe = recipes.load(name)
-        values = {key: value for key, value in request.values.items() if key in recipe.parameters} | dict(given)
+        values = {key: value for key, value in request.values.items() if key in recipe.parameters} | dict(overrides)
         if recipe.parameters.get("unit") == "time":
             values["unit"] = request.time
         if request.units and "length" in recipe.parameters:

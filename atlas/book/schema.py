@@ -146,14 +146,14 @@ def _faults_of_record(raw: dict[str, Any], kind: inspect.StructType, place: str)
             yield SchemaError(place, f"it lacks the key {key!r}, {_words(field.type)}")
 
 
-def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], where: str, key: str) -> Iterator[SchemaError]:
+def _faults_of_list(raw: list[Any], kinds: Iterable[inspect.Type], context: str, key: str) -> Iterator[SchemaError]:
     """Yield the faults of each item of a list, with its index, from 0, put in front of the fault's `path`.
 
     `kinds` are the types of the items; pages are named by their slugs in messages, other items by their number from 1.
     """
     for place, (value, kind) in enumerate(zip(raw, kinds, strict=True), 1):
         name = repr(value["slug"]) if isinstance(value, dict) and "slug" in value else place
-        for fault in _faults(value, kind, f"{where.removesuffix('s')} {name}", key):
+        for fault in _faults(value, kind, f"{context.removesuffix('s')} {name}", key):
             fault.path = (place - 1, *fault.path)
             yield fault
 

@@ -54,13 +54,13 @@ def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
     `table` is the name of the file of bodies, `command` the command that made the reports. `rows` are those of
     built reports and of failed ones.
     """
-    made = [row for row in rows if not row.fault]
+    reports = [row for row in rows if not row.fault]
     blocks = list[str]()
-    if made:
+    if reports:
         blocks.append(fenced({
             "kind": "listing", "id": "bodies", "sorts": True,
-            "columns": ["Line", "Report", *(f"{one.says[0].upper()}{one.says[1:]}, {one.letter}" for one in ENTRIES)],
-            "rows": [[str(row.line), link_to(row), *map(value_of, row.card.values())] for row in made],
+            "columns": ["Line", "Report", *(f"{x.says[0].upper()}{x.says[1:]}, {x.letter}" for x in ENTRIES)],
+            "rows": [[str(row.line), link_to(row), *map(value_of, row.card.values())] for row in reports],
             "caption": f"Cards of the bodies of `{table}`, a line of the file each. A click on the head of a column "
             "sorts by it.",
         }))  # fmt: skip
@@ -95,23 +95,23 @@ def table_of(rows: Iterable[Row]) -> str:
     """
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
-    parts = ("value", "sigma", "unit")
-    heads = [f"{one.key}{'' if part == 'value' else f'_{part}'}" for one in ENTRIES for part in parts]
+    fields = ("value", "sigma", "unit")
+    heads = [f"{entry.key}{'' if field == 'value' else f'_{field}'}" for entry in ENTRIES for field in fields]
     writer.writerow(["line", "name", "title", *heads, "fault"])
     for row in rows:
-        cells = [row.card[one.key][part] if row.card else None for one in ENTRIES for part in parts]
+        cells = [row.card[entry.key][field] if row.card else None for entry in ENTRIES for field in fields]
         writer.writerow([row.line, row.name, row.title, *cells, row.fault])
     return file.getvalue()
 
 
-def row_of(line: int, words: Sequence[str], request: Asked, made: Card) -> Row:
-    """Return the `Row` of a report that was built, from its line, typed words, request and card `made`."""
-    return Row(line, words, name_of(request), titled(request, made), made)
+def row_of(line: int, words: Sequence[str], request: Asked, card: Card) -> Row:
+    """Return the `Row` of a report that was built, from its line, typed words, request and `card`."""
+    return Row(line, words, name_of(request), titled(request, card), card)
 
 
-def titled(request: Asked, made: Card) -> str:
-    """Return the title of a body's report: the requested one, else one made of the card `made` and the verdict."""
-    return request.title or title_of(request, made, verdict(thing_of(request)))
+def titled(request: Asked, card: Card) -> str:
+    """Return the title of a body's report: the requested one, else one made of `card` and the verdict."""
+    return request.title or title_of(request, card, verdict(thing_of(request)))
 
 
 def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
@@ -128,10 +128,13 @@ def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
         "rows": [*_rows(*cards)],
         "caption": "The two cards, and the second less the first, to the digits that both have.",
     }  # fmt: skip
-    reasons = [f"{made['says'][:1].upper()}{made['says'][1:]} of `{name}`: {made['reason']}."
-               for name, one in zip(names, cards, strict=True) for made in one.values()
-               if made["reason"] not in {None, ONE_PERIOD}]  # fmt: skip
-    units = [{one["unit"] for one in made.values() if one["unit"] and one["unit"] != "rad"} for made in cards]
+    reasons = [f"{record['says'][:1].upper()}{record['says'][1:]} of `{name}`: {record['reason']}."
+               for name, records in zip(names, cards, strict=True) for record in records.values()
+               if record["reason"] not in {None, ONE_PERIOD}]  # fmt: skip
+    units = [
+        {record["unit"] for record in records.values() if record["unit"] and record["unit"] != "rad"}
+        for records in cards
+    ]
     if not units[0] & units[1]:
         reasons.append("Differences of times and rates: the two bodies have different units of time.")
     texts = [f"{place}: {title}. Its report is `{name}`, by `{request.command}`." for place, name, title, request
@@ -150,12 +153,14 @@ def _rows(first: Card, second: Card) -> Iterator[list[str]]:
         b = second[key]
         if a["value"] is None and b["value"] is None:
             continue
-        equation = next((f"@{one['equation']}" for one in (a, b) if one["equation"] and one["value"] is not None), "")
+        equation = next(
+            (f"@{record['equation']}" for record in (a, b) if record["equation"] and record["value"] is not None), ""
+        )
         says = b["says"] if a["value"] is None else a["says"]
         if a["says"] != b["says"] and None not in (a["value"], b["value"]):
             says += f"; of the second: {b['says']}"
-        units = ", ".join(dict.fromkeys(one["unit"] for one in (a, b) if one["unit"]))
-        values = [value_of({**one, "unit": ""}) for one in (a, b)]
+        units = ", ".join(dict.fromkeys(record["unit"] for record in (a, b) if record["unit"]))
+        values = [value_of({**record, "unit": ""}) for record in (a, b)]
         yield [says, a["letter"], *values, difference(a, b), units, equation]
 
 
@@ -170,7 +175,7 @@ def difference(a: Mapping[str, Any], b: Mapping[str, Any]) -> str:
     sigma = math.hypot(a["sigma"] or 0.0, b["sigma"] or 0.0)
     if sigma:
         return value_of({**a, "value": b["value"] - a["value"], "sigma": sigma, "unit": ""})
-    one, other = Decimal(a["digits"]), Decimal(b["digits"])
-    last = max(int(x.as_tuple().exponent) for x in (one, other))
-    less = (other - one).quantize(Decimal(1).scaleb(last))
+    first_number, second_number = Decimal(a["digits"]), Decimal(b["digits"])
+    exponent = max(int(x.as_tuple().exponent) for x in (first_number, second_number))
+    less = (second_number - first_number).quantize(Decimal(1).scaleb(exponent))
     return value_of({**a, "digits": str(less).lower(), "unit": ""}) if less else "0"

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 _TYPESET: dict[str, Any] = {
-    f"{part}_{end}_string": sign
-    for part, signs in {"variable": ("<$", "$>"), "block": ("<%", "%>"), "comment": ("<#", "#>")}.items()
+    f"{kind}_{end}_string": sign
+    for kind, signs in {"variable": ("<$", "$>"), "block": ("<%", "%>"), "comment": ("<#", "#>")}.items()
     for end, sign in zip(("start", "end"), signs, strict=True)
 }
 """What surrounds a part that is filled in, in Typst and LaTeX: there braces and percent signs have a meaning."""

@@ -122,8 +122,8 @@ class Texts:
                     new[target].setdefault(key, text)
         trees = _read([text for texts in new.values() for text in texts.values()])
         with ThreadPoolExecutor(len(cites)) as threads:
-            for written in threads.map(lambda target: _written(new[target], target, cites[target], trees), cites):
-                self.used |= written
+            for typeset_texts in threads.map(lambda target: _written(new[target], target, cites[target], trees), cites):
+                self.used |= typeset_texts
         return {target: [self.used[key][1] for key in keys[target]] for target in cites}
 
 

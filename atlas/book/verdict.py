@@ -116,9 +116,9 @@ def is_still(item: Thing) -> bool:
     values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
     if not item.family.sampled or not {"field", "direction"} & values.keys() or not {"omega", "omega2"} & values.keys():
         return False
-    *across, _ = values.get("direction") or values["field"]
+    *transverse, _ = values.get("direction") or values["field"]
     Omega = item.kernels().angular_velocity(0.0)
-    return not any((*across, *Omega[:2])) or ("field" in values and not any(Omega))
+    return not any((*transverse, *Omega[:2])) or ("field" in values and not any(Omega))
 
 
 def turns_over(item: Thing) -> bool:
@@ -130,8 +130,8 @@ def turns_over(item: Thing) -> bool:
         return False
     values = dict(zip((p.name for p in item.family.parameters), item.floats, strict=True))
     momenta = [(moment, abs(moment * rate)) for moment, rate in zip(values["inertia"], values["omega"], strict=True)]
-    along = float(sorted(momenta)[1][1])
-    return along > NEAR_MIDDLE * hypot(*(momentum for _, momentum in momenta))
+    middle_momentum = float(sorted(momenta)[1][1])
+    return middle_momentum > NEAR_MIDDLE * hypot(*(momentum for _, momentum in momenta))
 
 
 def place_of(family: Family, motion: Any) -> str:

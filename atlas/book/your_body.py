@@ -53,8 +53,8 @@ PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stabilit
 """Part of a report to which a figure belongs, by recipe; all others are of the motion."""
 
 
-def body_named(request: Asked, made: Mapping[str, Any]) -> str:
-    """Return the body in words, with its size or its moments as they were typed; `made` is the card."""
+def body_named(request: Asked, card: Mapping[str, Any]) -> str:
+    """Return the body in words, with its size or its moments as they were typed; `card` is that of the request."""
     options = request.options
     if "shape" in options:
         shape = options["shape"][0].replace("-", " ").replace("_", " ")
@@ -65,19 +65,19 @@ def body_named(request: Asked, made: Mapping[str, Any]) -> str:
                 unit = length if re.fullmatch(r"[\d.e+-]+", size) and request.time == "s" else ""
                 return f"{shape} of {name}{' radius' if name in {'equatorial', 'polar'} else ''} {spaced(size)}{unit}"
         return shape
-    if made["ratio"]["value"] is not None:
-        return f"body with I = {made['ratio']['value']:.8g}"
+    if card["ratio"]["value"] is not None:
+        return f"body with I = {card['ratio']['value']:.8g}"
     return f"body with the moments {', '.join(map(plain, request.values['inertia']))}"
 
 
-def title_of(request: Asked, made: Mapping[str, Any], says: str) -> str:
-    """Return the title of a report: the body, the time of one turn, and the verdict `says`; `made` is the card.
+def title_of(request: Asked, card: Mapping[str, Any], says: str) -> str:
+    """Return the title of a report: the body, the time of one turn, and the verdict `says`; `card` has the numbers.
 
     Of an object without a card it is the object's description.
     """
     if not has_card(request.family):
         return thing_of(request).says
-    turn, body = made["turn"], body_named(request, made)
+    turn, body = card["turn"], body_named(request, card)
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
@@ -132,7 +132,7 @@ def evaluated(request: Asked) -> dict[str, Any]:
     Its keys are family, time, values, and where there are such body, field, sigma and parts.
     """
     records = {"body": request.body, "field": request.field}
-    bare = {name: {k: v for k, v in one.items() if k != "title"} for name, one in records.items() if one}
+    bare = {name: {k: v for k, v in record.items() if k != "title"} for name, record in records.items() if record}
     sigma = {"sigma": {key: float(f"{x:.6g}") for key, x in request.sigma.items()}} if request.sigma else {}
     parts = {"parts": list(request.parts)} if request.only else {}
     return {
@@ -157,10 +157,10 @@ def inputs_of(request: Asked) -> str:
         for p in request.family.parameters
         if p.option and p.omitted is not None and p.name in request.values and p.name not in request.options
     ]
-    typed = "".join(f"{OPTION if word.startswith('--') else ' '}{toml.written(word)}," for word in request.words)
+    option_lines = "".join(f"{OPTION if word.startswith('--') else ' '}{toml.written(word)}," for word in request.words)
     content = {"defaults": omitted, "digest": digest_of(request),
                "evaluated": evaluated(request), "versions": versions()}  # fmt: skip
-    return f"# {request.command}\ntyped = [{typed.removeprefix(' ')}\n]\n" + "".join(toml.lines(content))
+    return f"# {request.command}\ntyped = [{option_lines.removeprefix(' ')}\n]\n" + "".join(toml.lines(content))
 
 
 def works() -> str:
@@ -180,11 +180,11 @@ def files_of(request: Asked) -> dict[str, str]:
     AtlasError
         Where there is no such object.
     """
-    name, made = name_of(request), card(request)
-    values = template_values(request, made)
+    name, numbers = name_of(request), card(request)
+    values = template_values(request, numbers)
     head = {"title": values["title"], "front_matter": False} | records_of(request)
     content = templated(name, "your_body.md", head, values, request.command)
-    record = {**made, "title": values["title"], "verdict": values["verdict"], "outweighed_by": values["outweighed_by"]}
+    record = numbers | {key: values[key] for key in ("title", "verdict", "outweighed_by")}
     made_files = {
         f"{name}.md": content,
         f"{name}.card.json": json.dumps(record, indent=1, ensure_ascii=False) + "\n",
@@ -197,41 +197,41 @@ def files_of(request: Asked) -> dict[str, str]:
     return made_files
 
 
-def template_values(request: Asked, made: Mapping[str, Any]) -> dict[str, Any]:
+def template_values(request: Asked, card: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks.
 
-    `made` is the card of the request.
+    `card` is that of the request.
     """
-    family, shape, item, ratio = request.family, shape_of(request), thing_of(request), made["ratio"]["value"]
-    motion, beside, left_out = item.kernels(), list(disturbances_of(request, made)), list[str]()
+    family, shape, item, ratio = request.family, shape_of(request), thing_of(request), card["ratio"]["value"]
+    motion, effects, left_out = item.kernels(), list(disturbances_of(request, card)), list[str]()
     figures, closed, measured = figures_by_part(request, left_out), list[str](), list[str]()
     if shape and "card" in request.parts:
         figures["card"] = [fenced({"kind": "figure", "recipe": PICTURE, "id": "body", "parameters": shape})]
     if "motion" in request.parts:
         closed = [*map(fenced, closed_of(request, left_out))] if not is_still(item) else []
-        measured = [*map(fenced, measurement_of(request, made, left_out))]
+        measured = [*map(fenced, measurement_of(request, card, left_out))]
     says = verdict(item)
     left_out += [
-        *_reasons(made),
+        *_reasons(card),
         *([] if is_still(item) else too_slow(motion, request.time)),
-        *_absent(request, shape, bool(beside)),
+        *_absent(request, shape, bool(effects)),
     ]
     surfaces = other_families(family) if maps_of(request) else []
-    others = [table_of(request, "properties", one.name, {"given": False}) for one in surfaces]
+    tables = [table_of(request, "properties", surface.name, {"given": False}) for surface in surfaces]
     return {
-        "name": name_of(request), "title": request.title or title_of(request, made, says), "verdict": says,
-        "turnover": _lasting(made["nutation"]) if turns_over(item) else "",
+        "name": name_of(request), "title": request.title or title_of(request, card, says), "verdict": says,
+        "turnover": _lasting(card["nutation"]) if turns_over(item) else "",
         "place": place_of(family, motion), "sign": sign_of(request), "command": request.command, "note": request.note,
-        "parts": list(request.parts), "family": family.name, "follows": bool(family.sampled), "card": [*_rows(made)],
-        "outweighed": outweighed(beside), "outweighed_by": [one.says for one in beside if one.outweighs],
-        "disturbances": [*map(_row_of, beside)], "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
-        "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, others)],
+        "parts": list(request.parts), "family": family.name, "follows": bool(family.sampled), "card": [*_rows(card)],
+        "outweighed": outweighed(effects), "outweighed_by": [effect.says for effect in effects if effect.outweighs],
+        "disturbances": [*map(_row_of, effects)], "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
+        "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, tables)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed + measured),
         "explorer": "".join(map(fenced, explorer_of(request, left_out) if "card" in request.parts else ())),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
         "setting": "".join(map(fenced, setting_of(request))),
         "again": reproduced(request, motion) if "elsewhere" in request.parts else None,
-        "neighbours": [[words, f"`{other.command}`"] for words, other in near(request)],
+        "neighbours": [[words, f"`{neighbour.command}`"] for words, neighbour in near(request)],
     }  # fmt: skip
 
 
@@ -252,10 +252,10 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
     Sentences on why some figures are missing are added to `left_out`.
     """
     maps = maps_of(request)
-    wanted = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}
-    if "asymmetric_motion" in wanted and turns_over(thing_of(request)):
-        wanted["asymmetric_motion"] = {"turns": 12.0}  # as many as its panel of Omega has at most
-    asked_for = {name: values for name, values in wanted.items() if PART.get(name, "motion") in request.parts}
+    candidates = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}
+    if "asymmetric_motion" in candidates and turns_over(thing_of(request)):
+        candidates["asymmetric_motion"] = {"turns": 12.0}  # as many as its panel of Omega has at most
+    asked_for = {name: values for name, values in candidates.items() if PART.get(name, "motion") in request.parts}
     for name, reason in without_change(request) if "motion" in request.parts else ():
         if asked_for.pop(name, None) is not None:
             left_out += [reason] * (reason not in left_out)
@@ -310,10 +310,10 @@ def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]
            "sliders": [*dict.fromkeys(("I", "angle", *names, "omega3"))], "start": start}  # fmt: skip
 
 
-def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
-    """Yield a sentence for each reason why numbers are missing on the card `made`, with their names."""
+def _reasons(card: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
+    """Yield a sentence for each reason why numbers are missing on the `card`, with their names."""
     reasons = dict[str, list[str]]()
-    for entry in made.values():
+    for entry in card.values():
         if entry["reason"] not in {None, ONE_PERIOD}:
             reasons.setdefault(entry["reason"], []).append(entry["says"])
     for reason, names in reasons.items():
@@ -321,9 +321,9 @@ def _reasons(made: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
         yield f"{words[:1].upper()}{words[1:]}: {reason[:1].lower()}{reason[1:]}."  # but B stays B
 
 
-def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
-    """Yield six texts for each number of the card `made`: words, letter, value and error, unit, digits, equation."""
-    for entry in made.values():
+def _rows(card: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
+    """Yield six texts for each number of the `card`: words, letter, value and error, unit, digits, equation."""
+    for entry in card.values():
         if entry["value"] is None:
             continue
         value, unknown_error = Number(entry["digits"]).words(), entry["reason"]
@@ -334,8 +334,8 @@ def _rows(made: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
         yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]
 
 
-def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
-    """Yield a `Disturbance` for each neglected effect, such as gravity; `made` is the card of the request.
+def disturbances_of(request: Asked, card: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
+    """Yield a `Disturbance` for each neglected effect, such as gravity; `card` is that of the request.
 
     Nothing is yielded without a shape, a mass or density, and a field B in SI.
     """
@@ -343,27 +343,28 @@ def disturbances_of(request: Asked, made: Mapping[str, Mapping[str, Any]]) -> It
     if "shape" not in body or not {"mass", "density"} & request.options.keys() or request.magnetic is None:
         return
     case, (mu, strength) = case_of(request), request.magnetic
-    turn = made["turn"]["value"]
+    turn = card["turn"]["value"]
     yield from disturbances(Spinning(
         body["shape"], {name: body[name] for name in SHAPES[body["shape"]][0] if name != "mass"}, body["mass"],
         mu, (float(case.body.I2), float(case.body.I3)), strength,
         math.hypot(*request.values.get("omega", (request.values.get("omega2", 0.0),))),
-        2 * math.pi / turn if turn else made["larmor"]["value"] or 0.0,
+        2 * math.pi / turn if turn else card["larmor"]["value"] or 0.0,
     ))  # fmt: skip
 
 
-def outweighed(beside: Sequence[Disturbance]) -> str:
+def outweighed(effects: Sequence[Disturbance]) -> str:
     """Return a sentence on the neglected effects that outweigh the computed motion; "" if there are none.
 
-    `beside` are all neglected effects.
+    `effects` are all of them.
     """
-    names = [one.says.partition(",")[0] for one in beside if one.outweighs]
+    names = [effect.says.partition(",")[0] for effect in effects if effect.outweighs]
     return f"Effects larger than those shown: {', '.join(names)}." if names else ""
 
 
-def _row_of(one: Disturbance) -> list[str]:
+def _row_of(effect: Disturbance) -> list[str]:
     """Return a neglected effect as six texts: words, letter, number, unit, formula, verdict."""
-    return [one.says, one.letter, Number(f"{one.value:.2e}").words(), one.unit, one.formula, one.verdict]
+    return [effect.says, effect.letter, Number(f"{effect.value:.2e}").words(),
+            effect.unit, effect.formula, effect.verdict]  # fmt: skip
 
 
 def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
@@ -379,7 +380,5 @@ def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> I
     if not maps_of(request) and {"body", "maps"} & {*parts}:
         yield "Quadric, hyperbola and the map of all motions: they are those of a symmetric body in a field."
     if not is_told:
-        missing = "; in numbers for a shape with its mass or density and a field `--magnetic` in SI" * bool(
-            request.body
-        )
-        yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, eddy currents{missing}."
+        remedy = "; in numbers for a shape with its mass or density and a field `--magnetic` in SI" * bool(request.body)
+        yield f"{'D' if is_top else 'Gravity, d'}rag, radiation, induced magnetism, eddy currents{remedy}."
