@@ -55,7 +55,7 @@ def measurement_of(
     """Yield the listing block of a proposed measurement; where there is none, add the reason to `left_out`.
 
     The listing has a row for each input of body, field and start: its letter, its standard deviations from 100 readings
-    of attitudes, of the third axis and of rates in the body over 5 turns, and its unit. `card` is that of the
+    of attitudes, of the third axis and of rates in the body over 5 turns, and its unit. `card` is the card of the
     request. Nothing is yielded or added for an object without a card, a start or a turn.
     """
     rates = [2 * math.pi / abs(x) for key in ("f1", "f2", "f3") if (x := card[key]["value"])]

@@ -54,7 +54,7 @@ PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stabilit
 
 
 def body_named(request: Asked, card: Mapping[str, Any]) -> str:
-    """Return the body in words, with its size or its moments as they were typed; `card` is that of the request."""
+    """Return the body in words, with its size or its moments as they were typed."""
     options = request.options
     if "shape" in options:
         shape = options["shape"][0].replace("-", " ").replace("_", " ")
@@ -200,7 +200,7 @@ def files_of(request: Asked) -> dict[str, str]:
 def template_values(request: Asked, card: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks.
 
-    `card` is that of the request.
+    `card` is the card of `request`.
     """
     family, shape, item, ratio = request.family, shape_of(request), thing_of(request), card["ratio"]["value"]
     motion, effects, left_out = item.kernels(), list(disturbances_of(request, card)), list[str]()
@@ -335,7 +335,7 @@ def _rows(card: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
 
 
 def disturbances_of(request: Asked, card: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
-    """Yield a `Disturbance` for each neglected effect, such as gravity; `card` is that of the request.
+    """Yield a `Disturbance` for each neglected effect, such as gravity; `card` is the card of `request`.
 
     Nothing is yielded without a shape, a mass or density, and a field B in SI.
     """

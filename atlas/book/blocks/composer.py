@@ -30,7 +30,7 @@ class Composer:
     recorded         the `Appendices`, recorded results that its blocks show
     ledger           slug of the page that holds each entry of the ledger, by name
     uses             list of `Use` of each equation, by name
-    cited, said      names of equations cited and sentences said on the current page
+    cited, sentences  names of equations cited and sentences said on the current page
     """
 
     def __init__(self, document: Any, recorded: Appendices) -> None:
@@ -43,7 +43,7 @@ class Composer:
         """Begin a page with this slug and title; citations and sentences of the page before are forgotten."""
         self.slug, self.title = slug, title
         self.cited: set[str] = set()
-        self.said: set[str] = set()
+        self.sentences: set[str] = set()
 
     def text(self, markdown: str, *, inline: bool = False) -> int:
         """Add a Markdown text and return its index among the document's texts.
@@ -78,8 +78,8 @@ class Composer:
 
     def once(self, sentence: str) -> str:
         """Return the sentence if this method was not given it before on this page, else ""."""
-        new = sentence not in self.said
-        self.said.add(sentence)
+        new = sentence not in self.sentences
+        self.sentences.add(sentence)
         return sentence if new else ""
 
     def anchors(self, names: Iterable[str]) -> list[str]:

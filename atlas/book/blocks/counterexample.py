@@ -47,12 +47,12 @@ def written(values_by_name: Mapping[str, str], section: str) -> str:
     letters = _Letters(vectors, primed=section in {"IV", "V"})
     values_in_words = ", ".join(letters.value(name, value) for name, value in values.items())
     if "relation" not in values_by_name:
-        sides = ", ".join(letters.told(values_by_name[side]) for side in ("left", "right") if side in values_by_name)
+        sides = ", ".join(letters.typeset(values_by_name[side]) for side in ("left", "right") if side in values_by_name)
         return ": ".join(filter(None, (values_by_name["reason"], values_in_words, sides))) + "."
     relation, _, place = values_by_name["relation"].partition(" (component ")
-    where = f" in the {_PLACES.get(place[:-1], f'{place[:-1]}th')} component" if place else ""
-    sides = ", ".join(f"{side} {letters.told(values_by_name[side])}" for side in ("left", "right"))
-    return f"{values_in_words} break ${letters.formula(relation)}${where}: {sides}."
+    location = f" in the {_PLACES.get(place[:-1], f'{place[:-1]}th')} component" if place else ""
+    sides = ", ".join(f"{side} {letters.typeset(values_by_name[side])}" for side in ("left", "right"))
+    return f"{values_in_words} break ${letters.formula(relation)}${location}: {sides}."
 
 
 class _Letters:
@@ -70,7 +70,7 @@ class _Letters:
         number = "1" if value == _ONE else value.replace("[", "(").replace("]", ")")
         return f"{partner}${self.formula(name.removeprefix(partner))}={number}$"
 
-    def told(self, side: str) -> str:
+    def typeset(self, side: str) -> str:
         """Return one side of a relation, a number or a formula in plain letters, as TeX between dollar signs.
 
         Of a text "formula has remark" only the formula becomes TeX; " has remark" follows as words.

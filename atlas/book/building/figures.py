@@ -142,9 +142,9 @@ def _why(figure: FigureBuild, cache: Cache) -> str:
     if before := cache.load(figure.name):
         changed = [name for name, value in figure.parts.items() if before.get(name) != value]
         return f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"
-    others, inputs = cache.load(f"inputs of {figure.stem}"), _inputs(figure)
-    changed = [name for name in {**others, **inputs} if others.get(name) != inputs.get(name)]
-    return f"changed inputs: {', '.join(changed)}" if others and changed else "it was never drawn here"
+    previous, inputs = cache.load(f"inputs of {figure.stem}"), _inputs(figure)
+    changed = [name for name in {**previous, **inputs} if previous.get(name) != inputs.get(name)]
+    return f"changed inputs: {', '.join(changed)}" if previous and changed else "it was never drawn here"
 
 
 def _inputs(figure: FigureBuild) -> dict[str, str]:
@@ -159,8 +159,8 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
     longest. `progress` is called after each with (figures done, number of figures, stem); cached ones count as done.
     Raises OSError when the cache can't be written.
     """
-    missing = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
-    for done, (figure, failure) in enumerate(_finished_figures(missing, cache, jobs), len(figures) - len(missing) + 1):
+    queue = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
+    for done, (figure, failure) in enumerate(_finished_figures(queue, cache, jobs), len(figures) - len(queue) + 1):
         figure.new, figure.failure = True, failure
         figure.take(cache)
         if figure.missing() and not failure:

@@ -209,9 +209,11 @@ def _pdf_key(source: str, folder: Path, faces: Sequence[Path], sources: Sources)
 
     `faces` are the paths of the fonts; `sources` digests the code.
     """
-    beside = {path.relative_to(folder).as_posix(): digest_of(path) for path in folder.rglob("*") if path.is_file()}
+    folder_digests = {
+        path.relative_to(folder).as_posix(): digest_of(path) for path in folder.rglob("*") if path.is_file()
+    }
     code = sources.closure([PACKAGE / "book" / "typesetting.py"])
-    return digest(source, beside, [digest_of(face) for face in faces], code, versions())
+    return digest(source, folder_digests, [digest_of(face) for face in faces], code, versions())
 
 
 def _typst_source(document: "Document", figures: "dict[FigureBuild, Picture]", folder: Path) -> str:

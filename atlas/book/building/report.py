@@ -113,10 +113,12 @@ def key_of(file: Path, sources: Sources, style: str | None = None, values: Mappi
     style sheet of Matplotlib, a file or a name, and `values` are the report's inputs by name; None for none.
     `sources` digests files of code.
     """
-    return digest(_own(file, sources), related_to(file), values or {}, sources.named(style), _program(sources))
+    return digest(
+        _sources_digest(file, sources), related_to(file), values or {}, sources.named(style), _program(sources)
+    )
 
 
-def _own(file: Path, sources: Sources) -> str:
+def _sources_digest(file: Path, sources: Sources) -> str:
     """Return the digest of a report's file and of the files in its folder that it names: recipes, styles, Markdown.
 
     All BibTeX files of the folder count too, and for a report with a gallery all its recipes.
@@ -155,8 +157,8 @@ def _unchanged(
         record = record_before.get(form, {"key": None})
         if record["key"] != key or any(digest_of(out / file) != digest for file, digest in record["files"].items()):
             return None
-    beside = outlines(file, cache, sources)
-    if not all(beside.agrees(record_before[form]["beside"]) for form in formats):
+    related = outlines(file, cache, sources)
+    if not all(related.agrees(record_before[form]["beside"]) for form in formats):
         return None
     reasons = (("report", name, "taken: nothing it depends on has changed"),)
     return Built(name, *_places(out, name), record_before["pages"], record_before["figures"], reasons=reasons)
@@ -209,7 +211,7 @@ def _build(
         found_out = pool.submit(lambda: key or key_of(file, sources, style, values))
         if DISTURBED:  # by Matplotlib, which parses its style sheets
             found_out.result()
-        figures.draw(list(builds), cache, jobs, lambda done, _, what: progress(done, steps, what))
+        figures.draw(list(builds), cache, jobs, lambda done, _, stem: progress(done, steps, stem))
     key = found_out.result()
     times["figures"] = time.perf_counter()
     progress(steps - 2, steps, "texts")
@@ -317,9 +319,9 @@ def outlines(file: Path, cache: Cache, sources: Sources) -> Beside:
         return msgspec.json.encode(compose(report, pictures(report), outline=True).outline)
 
     def remembered(file: Path) -> Outline:
-        key = digest("outline", _own(file, sources), _program(sources))
-        made: Outline = msgspec.json.decode(cache.recall(key, partial(outline, file)))
-        return made
+        key = digest("outline", _sources_digest(file, sources), _program(sources))
+        answers: Outline = msgspec.json.decode(cache.recall(key, partial(outline, file)))
+        return answers
 
     return Beside(remembered(find(name)) for name in related_to(file))
 
@@ -392,7 +394,7 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
         picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
         kind, place = "svg" if "pdf" in figure.kinds else "png", f"figures/{picture.stem}"
         picture.file = f"{place}.{kind}"
-        beside = {"narrow": f"{place}-narrow.{kind}", "scene": f"{place}.js", "moves": f"{place}-moves.js"}
-        picture.beside = {name: file for name, file in beside.items() if figure.contents.get(name)}
-        picture.files = {name: f"{place}.{name}" for name in figure.kinds if name not in beside}
+        side_files = {"narrow": f"{place}-narrow.{kind}", "scene": f"{place}.js", "moves": f"{place}-moves.js"}
+        picture.beside = {name: file for name, file in side_files.items() if figure.contents.get(name)}
+        picture.files = {name: f"{place}.{name}" for name in figure.kinds if name not in side_files}
         picture.remark = "Drawn by the vector renderer." if facts["note"] else ""

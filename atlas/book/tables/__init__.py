@@ -16,8 +16,8 @@ from atlas.book.tables.tops import asymmetric, critical, elliptic, identified, m
 from atlas.errors import unknown
 
 TABLES: dict[str, Maker] = {
-    made.__name__: made
-    for made in (
+    maker.__name__: maker
+    for maker in (
         *(body_and_field, charges, diamagnetism, quadric, points, properties, motion, sheet, quantities, samples, ball),
         *(closed, companions, particle, flight, sizes, targets, radiation, coats, swings, tops, monodromy, elliptic),
         *(periods, asymmetric, critical, identified, roles, levitated, lines, inferred, beyond_larmor, fits),

@@ -71,11 +71,11 @@ def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: in
             motion = ClosedMotion(ratio, field, p, q)
         except DomainError:
             continue  # no motion has this phi/k
-        shown = [
+        numbers = [
             Number(f"{x:.{min(digits, PRINTED_DIGITS)}g}")
             for x in (motion.omega2, motion.omega2 - omega2, motion.period)
         ]
-        rows.append((f"${p}/{q}$", *shown, miss))
+        rows.append((f"${p}/{q}$", *numbers, miss))
     if not rows:
         raise DomainError("No closed motion of the hyperbola (67) lies near.")
     rate = item.unit("1/time")
@@ -141,7 +141,7 @@ def companions(request: Request, setup: CompanionParameters) -> Data:
             (r"$\theta_+$", "degrees"),
             (r"$\theta_-$", "degrees"),
         ),
-        tuple((*rates, *others) for rates, others in zip(motions, zip(*columns, strict=True), strict=True)),
+        tuple((*rates, *values) for rates, values in zip(motions, zip(*columns, strict=True), strict=True)),
         f"Steady precessions of a body with $I={plain(setup.ratio)}$ that others leave and come back to: the angle "
         r"$\theta$ between axis and field, the rate $\sqrt c$ at which a push grows, and the angles $\theta_\pm$ at "
         r"which the companions turn, @theorem-companion-range.",

@@ -122,23 +122,23 @@ def points(request: Request, setup: PointsParameters) -> Data:
     small nutations grow; the last column is "stable" or "unstable". With several bodies the first column has each
     body's title, beside its first point. Raises AtlasError for B2 = 0.
     """
-    found = [of_points(case, setup, request.digits) for case in request.cases]
+    groups = [of_points(case, setup, request.digits) for case in request.cases]
     columns = [
         iter(column(values, request.digits))
-        for values in zip(*(point.values for one in found for point in one), strict=True)
+        for values in zip(*(point.values for group in groups for point in group), strict=True)
     ]
     rows: list[tuple[str | Number, ...]] = []
-    several = len(found) > 1
-    for case, one in zip(request.cases, found, strict=True):
+    has_titles = len(groups) > 1
+    for case, group in zip(request.cases, groups, strict=True):
         title = case.body_record.title if case.body_record else "body"
-        for number, point in enumerate(one):
-            body = (title[:1].upper() + title[1:] if number == 0 else "",) * several
+        for number, point in enumerate(group):
+            body = (title[:1].upper() + title[1:] if number == 0 else "",) * has_titles
             rows.append((*body, point.names, *map(next, columns), "stable" if point.stable else "unstable"))
     poles = dict.fromkeys(-Fraction(case.components[0]) for case in request.cases)
     left_out = [f"$\\omega_2={plain(value)}$" for value in setup.omega2 if Fraction(value) in poles]
     return Data(
         heads(
-            *(("Body",) * several),
+            *(("Body",) * has_titles),
             "Point",
             (r"$\omega_2$", RATE),
             (r"$\omega_3$", RATE),
@@ -183,10 +183,10 @@ def of_points(case: BodyAndField, setup: PointsParameters, digits: int) -> list[
     order = sorted(named)
     exact = [rational(omega2, "omega2") for omega2 in order]
     values = certified(lambda: [(h.omega3(x), *h.frequencies(x), h.stability(x)) for x in exact], digits)
-    given = [Number.as_given(float(y)) if Fraction(float(y)) == y else x for x, y in zip(exact, order, strict=True)]
+    numbers = [Number.as_given(float(y)) if Fraction(float(y)) == y else x for x, y in zip(exact, order, strict=True)]
     return [
         Point(", ".join(filter(None, named[y])), (number, *row), h.stable(x))
-        for x, y, number, row in zip(exact, order, given, values, strict=True)
+        for x, y, number, row in zip(exact, order, numbers, values, strict=True)
     ]
 
 

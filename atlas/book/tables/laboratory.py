@@ -245,11 +245,11 @@ def beyond_larmor(setup: Design) -> Data:
         offset = abs(potential) / 2 / (mass * GRAVITY)
         pressure = abs(total - induced) / (2 * pi) / gas_drag(r, I3)
         rates = [Number(f"{rate / (2 * pi):.7g}") if magnetic else _three(rate / (2 * pi)) for rate in (induced, total)]
-        first, shares = (
+        leading, shares = (
             (r, b / (2 * pi), magnetisation / (2 * pi)),
             ((total - induced) / (2 * pi), magnetic / potential),
         )
-        rows.append((*map(_three, first), *rates, *map(_three, (*shares, offset, pressure))))
+        rows.append((*map(_three, leading), *rates, *map(_three, (*shares, offset, pressure))))
     return Data(
         heads(
             ("$r$", "m"), (r"$b/2\pi$", "Hz"), ("by the charge", "Hz"), ("by magnetism", "Hz"), ("by both", "Hz"),

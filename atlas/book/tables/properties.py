@@ -31,12 +31,12 @@ Row = tuple[str, str, str | Number, str, str, str]
 class Thing:
     """An object of a family: parameters as given, and arguments of its classes in floats and in exact numbers.
 
-    `given` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the family's
+    `numbers` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the family's
     order. `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
     """
 
     family: Family
-    given: Mapping[str, Any]
+    numbers: Mapping[str, Any]
     floats: tuple[Any, ...]
     exact: tuple[Any, ...]
     units: Mapping[str, str]
@@ -85,7 +85,7 @@ class Thing:
     def says(self) -> str:
         """Description of the object as the beginning of a sentence; a body with a field of zeros is called free."""
         says = self.family.says
-        if not any(self.given.get("field", (1.0,))):
+        if not any(self.numbers.get("field", (1.0,))):
             says = says.replace("charged ", "free ")
         return says[:1].upper() + says[1:]
 
@@ -150,7 +150,7 @@ def properties(request: Request, item: Thing) -> Data:
 def _rows_given(item: Thing) -> Iterator[Row]:
     """Yield six cells for each component of each input: words, name, value, unit, "", "given"."""
     for p in item.family.parameters:
-        value = item.given[p.name]
+        value = item.numbers[p.name]
         components = value if p.columns else (value,)
         for place, (name, component) in enumerate(zip(p.names, components, strict=True)):
             if component is not None:

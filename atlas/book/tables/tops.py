@@ -90,7 +90,7 @@ def tops(request: Request, setup: TopsParameters) -> Data:
             *("Top", "$I$", "$k_2,k_3$", "$a_0,A_0$", "$n_2,n_3$", r"$\boldsymbol\omega$"),
             *("$T$", r"$\Delta\psi$", r"$\Delta\chi$"),
         ),
-        tuple((*leading, *others) for leading, others in zip(labels, zip(*columns, strict=True), strict=True)),
+        tuple((*leading, *values) for leading, values in zip(labels, zip(*columns, strict=True), strict=True)),
         r"Tops of every kind: the period $T$ of nutation and the angles $\Delta\psi$ about $\mathbf{n}$ and "
         r"$\Delta\chi$ about the axis by which the body turns in it, in units of $J_2$ and of one time.",
         (
@@ -216,15 +216,15 @@ def critical(request: Request, setup: Momenta) -> Data:
     for p in setup.momentum:
         diagram = Bifurcation(setup.inertia, setup.b, p * setup.b)
         ovals = list[tuple[str, float, float, bool]]()
-        for part in diagram.stretches():
-            name = f"{part.oval} oval" + (f", $v{'<>'[part.branch > 0]}0$" if p else "")
-            joined = bool(ovals) and ovals[-1][0] == name and ovals[-1][2:] == (part.low, part.stable)
-            low = ovals.pop()[1] if joined else part.low
-            ovals.append((name, low, part.high, part.stable))
+        for stretch in diagram.stretches():
+            name = f"{stretch.oval} oval" + (f", $v{'<>'[stretch.branch > 0]}0$" if p else "")
+            joined = bool(ovals) and ovals[-1][0] == name and ovals[-1][2:] == (stretch.low, stretch.stable)
+            low = ovals.pop()[1] if joined else stretch.low
+            ovals.append((name, low, stretch.high, stretch.stable))
         rays = [(f"pendulums about axis {axis + 1}", a, z, steady) for axis, a, z, steady in diagram.rays() if not p]
-        for name, first, last, stable in (*ovals, *rays):
-            ends = (Number(f"{x:.4g}") if isfinite(x) else r"$\infty$" for x in (first, last))
-            rows += [(Number.as_given(p), name, *ends, "stable" if stable else "saddle")] * (first < last)
+        for name, start, end, stable in (*ovals, *rays):
+            ends = (Number(f"{x:.4g}") if isfinite(x) else r"$\infty$" for x in (start, end))
+            rows += [(Number.as_given(p), name, *ends, "stable" if stable else "saddle")] * (start < end)
         for spin in diagram.spins:
             rows.append(
                 (Number.as_given(p), f"spin about axis {spin.axis + 1}", Number(f"{spin.F:.4g}"), "", spin.kind)
