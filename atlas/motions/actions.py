@@ -66,6 +66,6 @@ def actions(motion: Any) -> Actions:
         (M,) = wheels.phases
         work = mean(lambda x: (momentum(x[0] / M) * (motion.angular_velocity(x[0] / M) / M)).sum(-1))
         rates = [work - wheels.p / M * turns[0] - wheels.s / M * turns[1]]
-    values, there = np.array([*rates, *turns]), wheels.rates != 0
-    names = tuple(name for name, moves in zip(wheels.names, there, strict=True) if moves)
-    return Actions(names, values[there], wheels.rates[there], energy)
+    values, is_moving = np.array([*rates, *turns]), wheels.rates != 0
+    names = tuple(name for name, moves in zip(wheels.names, is_moving, strict=True) if moves)
+    return Actions(names, values[is_moving], wheels.rates[is_moving], energy)

@@ -88,9 +88,9 @@ class Motion(Shown, Generic[Single]):
         function that does.
         """
         code = cls.__init__.__code__
-        known = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
-        for name in arguments.keys() - set(known) & OTHERS.keys():
-            raise TypeError(f"{cls.__name__} takes {', '.join(known)}, not {name}, which is for {OTHERS[name]}.")
+        parameters = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+        for name in arguments.keys() - set(parameters) & OTHERS.keys():
+            raise TypeError(f"{cls.__name__} takes {', '.join(parameters)}, not {name}, which is for {OTHERS[name]}.")
         return super().__new__(cls, *inputs, **arguments)
 
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
@@ -169,9 +169,9 @@ class Motion(Shown, Generic[Single]):
         """Motion along the axes of its class, with R(0) = 1; None if the motion is already given along them."""
         if self._placement is None:
             return None
-        own = type(self)(**self._placement.arguments)
-        own._made = self._made  # noqa: SLF001  of this class
-        return own
+        unplaced = type(self)(**self._placement.arguments)
+        unplaced._made = self._made  # noqa: SLF001  of this class
+        return unplaced
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return a callable and its arguments, by which copy and pickle make the motion again."""
@@ -360,9 +360,9 @@ class Motion(Shown, Generic[Single]):
         Omega, p = self.angular_velocity(t), self._placement
         momentum = factors(Omega) if p is None else np.matvec(p.tensor, Omega)
         m = np.asarray(finite(np.matvec(self.rotation(t), momentum), name))
-        free = ~np.any(np.broadcast_arrays(*getattr(self, "field", (1.0,))), axis=0)
-        if free.any() and np.any(t):  # it stays as it was, to the last digit
-            np.copyto(m, self._momentum_of(factors, 0.0, name), where=free[..., None])
+        is_free = ~np.any(np.broadcast_arrays(*getattr(self, "field", (1.0,))), axis=0)
+        if is_free.any() and np.any(t):  # it stays as it was, to the last digit
+            np.copyto(m, self._momentum_of(factors, 0.0, name), where=is_free[..., None])
         return m
 
     def angular_velocity_in_laboratory(self, t: RealArrayLike) -> FloatArray:
@@ -750,31 +750,31 @@ class Motion(Shown, Generic[Single]):
         if not self.shape:
             return np.asarray(function(self._single(), t, out))
         times = real(t, "The time")
-        full = common_shape(self.shape, times.shape)
-        times, out = np.broadcast_to(times, full), target(out, full + shape)
-        own = (1,) * (len(full) - len(self.shape)) + self.shape
+        full_shape = common_shape(self.shape, times.shape)
+        times, out = np.broadcast_to(times, full_shape), target(out, full_shape + shape)
+        motions_shape = (1,) * (len(full_shape) - len(self.shape)) + self.shape
         count = prod(self.shape)
         if self._min_array_motions <= count and times.size < MIN_SINGLE_TIMES * count and self._rows is not None:
-            self._evaluate_rows(function, times, own, out.reshape(times.size, *shape))
+            self._evaluate_rows(function, times, motions_shape, out.reshape(times.size, *shape))
             return out
-        for i, index in enumerate(np.ndindex(own)):
-            where = tuple(slice(None) if n == 1 else i for i, n in zip(index, own, strict=True))
-            out[where] = function(self._single(i), times[where], None)
+        for i, index in enumerate(np.ndindex(motions_shape)):
+            selection = tuple(slice(None) if n == 1 else i for i, n in zip(index, motions_shape, strict=True))
+            out[selection] = function(self._single(i), times[selection], None)
         return out
 
     def _evaluate_rows(
-        self, function: Callable[..., Any], times: FloatArray, own: tuple[int, ...], out: FloatArray
+        self, function: Callable[..., Any], times: FloatArray, shape: tuple[int, ...], out: FloatArray
     ) -> None:
         """Fill ``out`` (m, ...), m the number of times, by calls function(rows, t, out) for `BLOCK` times each.
 
-        Motions of shape ``own`` broadcast with ``times``, of any shape. Motions that `_rows` count as extreme are
-        evaluated one by one.
+        ``times`` have any shape with which the motions' ``shape`` broadcasts. Motions that `_rows` count as extreme
+        are evaluated one by one.
         """
-        indices = np.broadcast_to(np.arange(prod(own)).reshape(own), times.shape)
+        indices = np.broadcast_to(np.arange(prod(shape)).reshape(shape), times.shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)
             t = np.asarray(times.flat[block])
-            rows = self._rows.at(block if times.shape == own else indices.flat[block], t)
+            rows = self._rows.at(block if times.shape == shape else indices.flat[block], t)
             with np.errstate(over="ignore", invalid="ignore"):  # in extreme rows, which are made by themselves
                 function(rows, t, out[block])
             for i in np.unique(rows.indices[rows.extreme]).tolist():
@@ -845,5 +845,5 @@ class DoubleTurn(Motion[Rotation]):
         turns = (e3, -phi, n, -k) if single.inverse else (n, k, e3, phi)
         start = np.empty(0)
         return Wheels(
-            L @ turns[0], turns[1], turns[2] @ C, turns[3], start, lambda of, _: function_of(self, of)(0.0)[None]
+            L @ turns[0], turns[1], turns[2] @ C, turns[3], start, lambda name, _: function_of(self, name)(0.0)[None]
         )

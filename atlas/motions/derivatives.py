@@ -43,43 +43,44 @@ class Moved(NamedTuple):
     spin: float = 0.0
 
 
-def of(motion: Any, t: Any, names: Any, of: str, *, certified: bool = True) -> FloatArray:
-    """Return derivatives of the quantity ``of`` of ``motion``, one or an array, in ``names``; see `Motion.sensitivity`.
+def of(motion: Any, t: Any, names: Any, quantity: str, *, certified: bool = True) -> FloatArray:
+    """Return derivatives of a ``quantity`` of ``motion``, one or an array, in ``names``; see `Motion.sensitivity`.
 
     The shape is (..., names, 3) for vectors at times t, (..., names) for a scalar. Without `certified` eight digits are
     enough, and DomainError is raised where only balls, in milliseconds a time, have eight.
     """
     names = [names] if isinstance(names, str) else list(names)
-    ones = _ones(motion)
-    if of not in VECTORS:
-        return np.array([single.scalar(names, of) for single in ones]).reshape(*motion.shape, len(names))
+    singles = _singles(motion)
+    if quantity not in VECTORS:
+        return np.array([single.scalar(names, quantity) for single in singles]).reshape(*motion.shape, len(names))
     times = real(bare(t, "The time", TIME), "The time")
     if not motion.shape:
-        return ones[0].vectors(times.ravel(), names, of, certified=certified).reshape(*times.shape, len(names), 3)
+        values = singles[0].vectors(times.ravel(), names, quantity, certified=certified)
+        return values.reshape(*times.shape, len(names), 3)
     shape = common_shape(motion.shape, times.shape)
     out, times = np.empty((*shape, len(names), 3)), np.broadcast_to(times, shape)
-    places = np.broadcast_to(np.arange(len(ones)).reshape(motion.shape), shape)
-    for i, single in enumerate(ones):
-        out[places == i] = single.vectors(times[places == i], names, of, certified=certified)
+    places = np.broadcast_to(np.arange(len(singles)).reshape(motion.shape), shape)
+    for i, single in enumerate(singles):
+        out[places == i] = single.vectors(times[places == i], names, quantity, certified=certified)
     return out
 
 
 def of_rounding(motion: Any, t: Any) -> FloatArray:
     """Return the bound of `Motion.input_error`, angles in rad in an array of the shape of ``motion`` and times t."""
-    probe = _ones(motion)
+    probe = _singles(motion)
     names = list(probe[0].rounded) if probe else []
     v = of(motion, t, names, "rotation")
     halves = np.array([[x.rounded[name] for name in names] for x in probe]).reshape(*motion.shape, len(names))
     return np.asarray((np.sqrt((v * v).sum(-1)) * halves).sum(-1))
 
 
-def _ones(motion: Any) -> list["One"]:
-    """Return one `One` for each motion of an array, cached with the array."""
-    cache: dict[int, One] = vars(motion).setdefault("_differentiated", {})
-    return [cache.get(i) or cache.setdefault(i, One(motion, i)) for i in range(int(np.prod(motion.shape)))]
+def _singles(motion: Any) -> list["SingleMotion"]:
+    """Return a `SingleMotion` for each motion of an array, cached with the array."""
+    cache: dict[int, SingleMotion] = vars(motion).setdefault("_differentiated", {})
+    return [cache.get(i) or cache.setdefault(i, SingleMotion(motion, i)) for i in range(int(np.prod(motion.shape)))]
 
 
-class One:
+class SingleMotion:
     """The i-th motion of an array, counted flattened, with all that its derivatives need.
 
     Its `inputs` are the class's `Inputs`, `sides` the constant rotations (left, axes) of its placement, (3, 3)
@@ -88,7 +89,7 @@ class One:
     """
 
     def __init__(self, motion: Any, i: int) -> None:
-        self.motion, self.place, self.one = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
+        self.motion, self.place, self.single = motion, i, motion._single(i)  # noqa: SLF001  of the same folder
         shape, placed = (*motion.shape, 3, 3), motion.is_placed
         self.sides = self.left, self.axes = [np.broadcast_to(x, shape).reshape(-1, 3, 3)[i] for x in motion._sides]  # noqa: SLF001
         self.inputs = motion._inputs_of(i)  # noqa: SLF001  of the same folder
@@ -109,8 +110,8 @@ class One:
             B = L @ floats([fmpq(0)] * (3 - len(K)) + K)
             transverse = np.eye(3)
             if "n2" in names:  # of a top only the direction matters, and along it nothing, not even rounding
-                given = np.broadcast_to(self.motion.given[1], (*self.motion.shape, 3)).reshape(-1, 3)[i]
-                u = given / abs(given).max()
+                field = np.broadcast_to(self.motion.given[1], (*self.motion.shape, 3)).reshape(-1, 3)[i]
+                u = field / abs(field).max()
                 transverse = np.cross(np.cross(u, transverse), u) / (u @ u)
             for j, e in enumerate(np.eye(3)):
                 moves = (f"B{j + 1}", np.zeros(3), L.T @ transverse[j]), (f"a{j + 1}", e, -L.T @ np.cross(e, B))
@@ -168,35 +169,35 @@ class One:
                 raise DomainError(f"The top's axis is along n, where its inputs have no derivative in {name}.")
         return [x for x in self.inputs.names if any(x in self.changes[name].weights for name in names if name != "t")]
 
-    def scalar(self, names: Sequence[str], of: str) -> FloatArray:
-        """Return the derivatives of the scalar ``of``, such as "period", in ``names``, shape (len(names),); 0 in "t".
+    def scalar(self, names: Sequence[str], quantity: str) -> FloatArray:
+        """Return the derivatives of a scalar ``quantity``, as "period", in ``names``, shape (len(names),); 0 in "t".
 
         Raises AtlasError for an unknown scalar, DomainError for an infinite one or a derivative that no float holds.
         """
-        if of not in self.inputs.scalars:
+        if quantity not in self.inputs.scalars:
             raise AtlasError(
-                f"A {self.motion.family} motion has no derivative of {of!r}: choose from "
+                f"A {self.motion.family} motion has no derivative of {quantity!r}: choose from "
                 f"{', '.join((*VECTORS, *self.inputs.scalars))}."
             )
         inputs = self._inputs_behind(names)
-        value = getattr(self.motion, of, 0.0)
+        value = getattr(self.motion, quantity, 0.0)
         if np.isinf(np.broadcast_to(value, self.motion.shape).flat[self.place]):
-            raise DomainError(f"The {of} is infinite and has no derivatives.")
-        derivatives = dict(zip(inputs, self.inputs.of_scalar(of, inputs), strict=True)) if inputs else {}
+            raise DomainError(f"The {quantity} is infinite and has no derivatives.")
+        derivatives = dict(zip(inputs, self.inputs.of_scalar(quantity, inputs), strict=True)) if inputs else {}
         with np.errstate(over="ignore", invalid="ignore"):
             values = [
                 0.0 if name == "t" else sum(w * derivatives[x] for x, w in self.changes[name].weights.items())
                 for name in names
             ]
-        return np.asarray(finite(np.array(values), f"A derivative of the {of}"))
+        return np.asarray(finite(np.array(values), f"A derivative of the {quantity}"))
 
-    def vectors(self, t: FloatArray, names: Sequence[str], of: str, *, certified: bool) -> FloatArray:
-        """Return derivatives of the vector quantity ``of`` at times t (m,) in ``names``, shape (m, len(names), 3).
+    def vectors(self, t: FloatArray, names: Sequence[str], quantity: str, *, certified: bool) -> FloatArray:
+        """Return derivatives of a vector ``quantity`` at times t (m,) in ``names``, shape (m, len(names), 3).
 
         See `Motion.sensitivity` for the quantities, `of` for ``certified``. Raises DomainError for rates beyond
         `MAX_RATE`.
         """
-        faster, inverse = of == "angular_velocity", "larmor" in self.inputs.names
+        faster, inverse = quantity == "angular_velocity", "larmor" in self.inputs.names
         if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
             raise DomainError(
                 "The rates of this motion are too large or too small for derivatives: choose other units."
@@ -205,13 +206,13 @@ class One:
         varied, weights, turns, spins, cached = self._weighted(moving)
         v = slopes = np.broadcast_to(turns, (t.size, *turns.shape))
         if varied:
-            v, *rest = varied.vectors(t, faster, self.left, weights, turns, spins, cached, certified=certified)
-            slopes = rest[0] if rest else v
+            v, *rates = varied.vectors(t, faster, self.left, weights, turns, spins, cached, certified=certified)
+            slopes = rates[0] if rates else v
         elif faster:
             slopes = np.zeros_like(v)
-        needs_rotation = of != "rotation" or inverse or len(moving) < len(names)
-        R = self.sides[0] @ self.one.rotation(t) @ self.sides[1] if needs_rotation else np.empty(0)
-        Omega = self.one.angular_velocity(t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
+        needs_rotation = quantity != "rotation" or inverse or len(moving) < len(names)
+        R = self.sides[0] @ self.single.rotation(t) @ self.sides[1] if needs_rotation else np.empty(0)
+        Omega = self.single.angular_velocity(t) @ self.sides[1] if inverse or len(moving) < len(names) else np.empty(0)
         if inverse:  # the matrix is the transposed one
             if faster:
                 slopes = -np.matvec(R[:, None], slopes + np.cross(Omega[:, None], v))
@@ -219,7 +220,7 @@ class One:
         vectors, B = v, self.left @ self.inputs.field
         if faster:
             vectors = slopes @ R
-        elif of == "field":
+        elif quantity == "field":
             inputs, none = self._inputs_behind(moving), np.zeros(3)
             fields = np.array([self.inputs.fields.get(x, none) for x in inputs]).reshape(-1, 3)
             vectors = (weights @ fields @ self.left.T + np.cross(turns, B) - np.cross(v, B)) @ R
@@ -227,7 +228,7 @@ class One:
             return np.asarray(vectors)
         out = np.empty((t.size, len(names), 3))
         out[:, [x != "t" for x in names]] = vectors
-        rate = np.matvec(R, Omega) if of == "rotation" else self._rate(of, R, Omega, B)
+        rate = np.matvec(R, Omega) if quantity == "rotation" else self._rate(quantity, R, Omega, B)
         out[:, [x == "t" for x in names]] = rate[:, None]
         return out
 
@@ -255,8 +256,8 @@ class One:
             self._cache[key] = varied, weights, turns, spins, cached
         return self._cache[key]
 
-    def _rate(self, of: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
-        """Return dK/dt if ``of`` is "field", else dOmega/dt, (m, 3), along the body's axes, in 1/time^2.
+    def _rate(self, quantity: str, R: FloatArray, Omega: FloatArray, B: FloatArray) -> FloatArray:
+        """Return dK/dt if ``quantity`` is "field", else dOmega/dt, (m, 3), along the body's axes, in 1/time^2.
 
         R (m, 3, 3) are the rotations, Omega (m, 3) the angular velocities in the body, and B (3,) is the field in
         the laboratory. I dOmega/dt = [I Omega + k b, Omega] + [k Omega - U' e3, b] - k [b, Omega], with the moments
@@ -265,7 +266,7 @@ class One:
         """
         J, k, linear, quadratic = self.inputs.dynamics
         w, b = Omega @ self.axes.T, (B @ R) @ self.axes.T
-        if of == "field":
+        if quantity == "field":
             return np.asarray(np.cross(b, w) @ self.axes)
         push = np.outer(linear + quadratic * b[:, 2], (0.0, 0.0, 1.0))
         change = np.cross(J * w + k * b, w) + np.cross(k * w - push, b) - k * np.cross(b, w)

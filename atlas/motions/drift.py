@@ -90,13 +90,15 @@ def drift(
     >>> slowed.action.round(6), slowed.nutation.round(4)
     (array([0.038207, 0.038207]), array([2.8804, 2.6824]))
     """
-    own: Any = getattr(motion, "own", motion)
-    names = set(getattr(own, "arguments", ()))
+    unplaced: Any = getattr(motion, "own", motion)
+    names = set(getattr(unplaced, "arguments", ()))
     is_asymmetric = names == {"inertia", "field", "omega"}
-    if getattr(own, "shape", None) != () or not (is_asymmetric or names > {"ratio", "field"} or "coupling" in names):
+    if getattr(unplaced, "shape", None) != () or not (
+        is_asymmetric or names > {"ratio", "field"} or "coupling" in names
+    ):
         raise AtlasError(
             "A drift takes one GeneralMotion, ElementaryMotion, TopMotion or AsymmetricMotion, not "
-            f"{type(own).__name__}."
+            f"{type(unplaced).__name__}."
         )
     times = np.atleast_1d(real(bare(t, "The time", TIME), "The time"))
     if times.ndim != 1 or not times.size or times[0] < 0 or (np.diff(times) < 0).any():
@@ -107,12 +109,12 @@ def drift(
     friction = real(drag, "The drag")
     if friction.shape not in ((), (1,), (3,) if is_asymmetric else (2,)):
         raise AtlasError(f"The drag is one rate or {'three' if is_asymmetric else '(d2, d3)'}: shape {friction.shape}.")
-    if not is_asymmetric or own.kind in BESIDE:
-        return of_nutation(own, times, rates, friction)
+    if not is_asymmetric or unplaced.kind in BESIDE:
+        return of_nutation(unplaced, times, rates, friction)
     if any(rates[1:]):
         raise AtlasError(
             "linear and quadratic are for the potential of a TopMotion: leave them out for a body with three moments."
         )
-    if own.kind not in WITH_PHASES:
-        raise DomainError(f"The motion has no phases to average over: it is {own.kind}; start beside it.")
-    return of_torus(own, times, rates[0], np.broadcast_to(friction, (3,)))
+    if unplaced.kind not in WITH_PHASES:
+        raise DomainError(f"The motion has no phases to average over: it is {unplaced.kind}; start beside it.")
+    return of_torus(unplaced, times, rates[0], np.broadcast_to(friction, (3,)))

@@ -81,8 +81,8 @@ class Placement:
         """
         left, right, start = map(of_matrix, (*self.sides, self.attitude))
         start = start * np.where(start[..., 3:] < 0, -1.0, 1.0)
-        along = (product(left, right) * start).sum(-1, keepdims=True)
-        return left * np.where(along < 0, -1.0, 1.0), right, start
+        cosine = (product(left, right) * start).sum(-1, keepdims=True)
+        return left * np.where(cosine < 0, -1.0, 1.0), right, start
 
     @staticmethod
     def started(values: FloatArray, start: FloatArray, rank: int, t: Any) -> FloatArray:
@@ -90,10 +90,10 @@ class Placement:
 
         Values are vectors (..., 3) for ``rank`` 1, matrices (..., 3, 3) for rank 2; start broadcasts to them.
         """
-        known = np.equal(bare(t, "The time", TIME), 0)
-        if known.any():
-            known = np.broadcast_to(known, values.shape[:-rank])
-            np.copyto(values, start, where=known.reshape(known.shape + (1,) * rank))
+        is_start = np.equal(bare(t, "The time", TIME), 0)
+        if is_start.any():
+            is_start = np.broadcast_to(is_start, values.shape[:-rank])
+            np.copyto(values, start, where=is_start.reshape(is_start.shape + (1,) * rank))
         return values
 
 

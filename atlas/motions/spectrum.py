@@ -141,31 +141,31 @@ class Wheels(NamedTuple):
         return np.array([*self.phases, self.p, self.s])
 
 
-def spectrum(motion: Any, of: str, least: float) -> Spectrum:
-    """Return the `Spectrum` of the quantity ``of``, such as "axis", of one motion; see `Motion.spectrum`.
+def spectrum(motion: Any, quantity: str, least: float) -> Spectrum:
+    """Return the `Spectrum` of a ``quantity``, such as "axis", of one motion; see `Motion.spectrum`.
 
     Raises AtlasError for an array of motions, another name, and ``least`` outside [`MIN_AMPLITUDE`, 1).
     """
-    if of not in get_args(SpectrumOf):
-        raise AtlasError(f"A motion has no spectrum of {of!r}: choose from {', '.join(get_args(SpectrumOf))}.")
+    if quantity not in get_args(SpectrumOf):
+        raise AtlasError(f"A motion has no spectrum of {quantity!r}: choose from {', '.join(get_args(SpectrumOf))}.")
     if motion.shape:
         raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")
     least = number(least, "least")
     if not MIN_AMPLITUDE <= least < 1:
         raise AtlasError(f"least is a fraction of the root mean square from {MIN_AMPLITUDE:g} to 1, not {least:g}.")
     wheels = motion._wheels()  # noqa: SLF001  of the same folder
-    indices, S = coefficients(lambda x: wheels.at(of, x), len(wheels.phases))
-    left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), of in ("rotation", "axis")
+    indices, S = coefficients(lambda x: wheels.at(quantity, x), len(wheels.phases))
+    left, right, moves = _turn(wheels.n, wheels.p), _turn(wheels.a, wheels.s), quantity in ("rotation", "axis")
     combinations, amplitudes = [], []
     for l in left if moves else (0,):
         for j, after in right.items():
             amplitudes_of_line = left[l] @ S @ after if moves else S @ after  # that of R_a(-s t) at -j
-            amplitudes.append(amplitudes_of_line[..., 2] if of == "axis" else amplitudes_of_line)
+            amplitudes.append(amplitudes_of_line[..., 2] if quantity == "axis" else amplitudes_of_line)
             combinations.append(np.column_stack([indices, np.full((len(indices), 2), (l, j))]))
-    return _sorted(of, wheels, np.concatenate(combinations), np.concatenate(amplitudes), least)
+    return _sorted(quantity, wheels, np.concatenate(combinations), np.concatenate(amplitudes), least)
 
 
-def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
+def _sorted(quantity: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes: Array, least: float) -> Spectrum:
     """Return a `Spectrum` of lines by ascending frequency; amplitudes of equal frequencies are added.
 
     ``combinations`` (N, d + 2) are the integers of each line in the rates of ``wheels``, ``amplitudes`` (N, ...)
@@ -177,22 +177,24 @@ def _sorted(of: str, wheels: Wheels, combinations: NDArray[np.intp], amplitudes:
     lines = np.flatnonzero(size > (MIN_AMPLITUDE * 1e-3) ** 2 * size.max())
     order = lines[np.lexsort((abs(combinations[lines]).sum(1), frequencies[lines]))]
     frequencies, combinations, amplitudes = frequencies[order], combinations[order], amplitudes[order]
-    apart = np.diff(frequencies, prepend=-np.inf) > FREQUENCY_TOLERANCE * abs(frequencies).max(initial=0.0)
-    starts = np.flatnonzero(apart)
+    is_new_line = np.diff(frequencies, prepend=-np.inf) > FREQUENCY_TOLERANCE * abs(frequencies).max(initial=0.0)
+    starts = np.flatnonzero(is_new_line)
     shortest = [i + int(np.argmin(abs(combinations[i:k]).sum(1))) for i, k in pairwise([*starts, len(frequencies)])]
     amplitudes = np.add.reduceat(amplitudes, starts)
     power = _power(amplitudes, unit)
-    whole = float(power.sum())
-    mean_square = whole * unit * unit
-    if whole and not np.finfo(float).tiny <= mean_square < np.inf:
-        raise DomainError(f"The mean square of the {of} is too large or too small for a float: choose other units.")
-    lines = np.flatnonzero(power >= least * least * whole)
+    total = float(power.sum())
+    mean_square = total * unit * unit
+    if total and not np.finfo(float).tiny <= mean_square < np.inf:
+        raise DomainError(
+            f"The mean square of the {quantity} is too large or too small for a float: choose other units."
+        )
+    lines = np.flatnonzero(power >= least * least * total)
     combinations = combinations[shortest][lines]
-    there = np.flatnonzero(combinations.any(0))
-    names = tuple(wheels.names[i] for i in there)
+    columns = np.flatnonzero(combinations.any(0))
+    names = tuple(wheels.names[i] for i in columns)
     return Spectrum(
-        of, names, wheels.rates[there], combinations[:, there] @ wheels.rates[there], amplitudes[lines],
-        combinations[:, there], mean_square,
+        quantity, names, wheels.rates[columns], combinations[:, columns] @ wheels.rates[columns], amplitudes[lines],
+        combinations[:, columns], mean_square,
     )  # fmt: skip
 
 
@@ -214,10 +216,10 @@ def _turn(n: FloatArray, rate: float) -> dict[int, Array]:
     if not rate:
         return {0: np.eye(3, dtype=complex)}
     parallel, transverse = np.outer(n, n), np.cross(n, np.eye(3)).T
-    parts = np.array(
+    matrices = np.array(
         [(np.eye(3) - parallel) / 2 + 0.5j * transverse, parallel, (np.eye(3) - parallel) / 2 - 0.5j * transverse]
     )
-    return dict(zip((-1, 0, 1), parts, strict=True))
+    return dict(zip((-1, 0, 1), matrices, strict=True))
 
 
 def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[NDArray[np.intp], Array]:
@@ -245,10 +247,10 @@ def coefficients(function: Callable[[FloatArray], FloatArray], d: int) -> tuple[
     raise DomainError(f"The motion has more than {LAST[d] // 2} lines of each phase: it is too near to a separatrix.")
 
 
-def function_of(motion: Any, of: str) -> Any:
+def function_of(motion: Any, quantity: str) -> Any:
     """Return the bound method of the motion for "angular_velocity" or "field"; `rotation` for any other name."""
     names = {"angular_velocity": "angular_velocity", "field": "field_in_body"}
-    return getattr(motion, names.get(of, "rotation"))
+    return getattr(motion, names.get(quantity, "rotation"))
 
 
 def mean(function: Callable[[FloatArray], FloatArray]) -> float:

@@ -75,8 +75,8 @@ class Start:
         back = np.swapaxes(self.R, -1, -2) if self._turn is None else np.array(self._turn) * (-1.0, -1.0, -1.0, 1.0)
         if not self.body.turn:
             return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
-        turned = turned_by(self.B, back), turned_by(self.w, *[back] * self.outside)
-        field, w = (given(_along, *self.body.turn, *v, unit=slice(9, None), count=3) for v in turned)
+        vectors = turned_by(self.B, back), turned_by(self.w, *[back] * self.outside)
+        field, w = (given(_components_along, *self.body.turn, *v, unit=slice(9, None), count=3) for v in vectors)
         return field, w
 
     @property
@@ -126,9 +126,9 @@ class Start:
         return any(np.any(x) for x in self.B)
 
     def place(
-        self, own: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
+        self, motion: Any, axes: FloatArray, make: Callable[..., Any], arguments: Mapping[str, Any], made_by: str
     ) -> Any:
-        """Return ``own``, a motion along the axes of its class, placed in the given axes; changed in place.
+        """Return ``motion``, made along the axes of its class, placed in the given axes; changed in place.
 
         ``axes`` (..., 3, 3) are the class's, as rows along the body's axes. ``make`` and ``arguments`` are the call
         that makes the motion again, ``made_by`` its name.
@@ -136,9 +136,9 @@ class Start:
         outer = self.R @ np.swapaxes(axes, -1, -2)
         before, after = (None if (x == np.eye(3)).all() else frozen(x) for x in (outer, axes))
         B, R, omega = frozen((joined_columns(self.B), self.R, self.omega))
-        placement = Placement(before, after, frozen(self.body.tensor), B, R, omega, make, dict(own.arguments))
+        placement = Placement(before, after, frozen(self.body.tensor), B, R, omega, make, dict(motion.arguments))
         copies = {name: _copied(value) for name, value in arguments.items()}
-        return own._place(placement, copies, made_by)  # noqa: SLF001  nobody else has the motion yet
+        return motion._place(placement, copies, made_by)  # noqa: SLF001  nobody else has the motion yet
 
 
 def start_of(
@@ -262,7 +262,7 @@ def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
     return [I[i] for i in order], [axes[i] for i in order]
 
 
-def _along(*numbers: Number) -> tuple[Number, ...]:
+def _components_along(*numbers: Number) -> tuple[Number, ...]:
     """Return the three components of a vector, the last three numbers, along axes whose elements are the first nine."""
     *axes, x, y, z = numbers
     return tuple(dot(axes[i : i + 3], (x, y, z)) for i in (0, 3, 6))
@@ -273,11 +273,11 @@ def _hint_at_symmetry(I: FloatArray, gaps: list[float], axes: FloatArray) -> Non
 
     ``gaps`` are their two differences over the largest moment, ``axes`` (3, 3) the principal axes as rows.
     """
-    i, part = min(enumerate(gaps), key=lambda gap: gap[1])
-    if 0 < part <= NEARLY:
+    i, fraction = min(enumerate(gaps), key=lambda gap: gap[1])
+    if 0 < fraction <= NEARLY:
         third = (0, 2)[1 - i]
         warnings.warn(
-            f"Two principal moments of the tensor differ by {part:.1g} of the largest: the body has three, and the "
+            f"Two principal moments of the tensor differ by {fraction:.1g} of the largest: the body has three, and the "
             "closed form of its motion takes up to a minute. If two are meant to be equal, give atlas.SymmetricBody("
             f"{I[1]:.16g}, {I[third]:.16g}, axes), third axis ({', '.join(f'{x:.10g}' for x in axes[third])}).",
             NearlySymmetricWarning,
@@ -330,12 +330,12 @@ def joined_columns(v: list[Any]) -> FloatArray:
     return np.stack(np.broadcast_arrays(*map(np.asarray, v)), -1)
 
 
-def argument(value: Any, parts: list[Any]) -> Any:
-    """Return a vector for storage: an array (..., 3) of ``parts``, or ``value`` itself if floats do not hold them.
+def argument(value: Any, components: list[Any]) -> Any:
+    """Return a vector for storage: an array (..., 3) of ``components``, or ``value`` itself if floats do not hold them.
 
-    ``value`` is the vector as the user gave it, ``parts`` its three components.
+    ``value`` is the vector as the user gave it, ``components`` its three numbers.
     """
-    return value if any(isinstance(x, Given) for x in parts) else joined_columns(parts)
+    return value if any(isinstance(x, Given) for x in components) else joined_columns(components)
 
 
 def attitude_of(attitude: Any) -> FloatArray:

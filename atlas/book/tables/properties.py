@@ -31,8 +31,8 @@ Row = tuple[str, str, str | Number, str, str, str]
 class Thing:
     """An object of a family: parameters as given, and arguments of its classes in floats and in exact numbers.
 
-    `numbers` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the family's
-    order. `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
+    `numbers` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the
+    family's order. `units` maps the register's units to others, and `described` is true if the inputs stand in a table.
     """
 
     family: Family

@@ -24,12 +24,12 @@ from atlas.motions.nutation.derivatives_inputs import NUTATION, Inputs, of_gener
 
 @dataclass(frozen=True)
 class AxisAndRates:
-    """A motion R_n(k t) R_z(phi t) of exact numbers; n is along the vector `along`, of two or three components.
+    """A motion R_n(k t) R_z(phi t) of exact numbers; n is along the vector `axis`, of two or three components.
 
     Two components are those along e2 and e3; a zero vector stands for e3. `k` and `phi` are in rad/time.
     """
 
-    along: Any
+    axis: Any
     k: Any
     phi: Any
     places: ClassVar[tuple[int, ...]] = (0, 1, 2)
@@ -58,7 +58,7 @@ class AxisAndRates:
 
     @property
     def _axes(self) -> tuple[Any, Any]:
-        axis = self.along if len(self.along) == 3 else (fmpq(0), *self.along)
+        axis = self.axis if len(self.axis) == 3 else (fmpq(0), *self.axis)
         return axis if any(x != 0 for x in axis) else AXES[2], AXES[2]
 
 

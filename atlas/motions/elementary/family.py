@@ -180,7 +180,7 @@ BALL = Family(
         Quantity("gamma", "frequency of the turn about k_hat", RATE, "(29)", checked="ball gamma", certified=True),
         Quantity(
             "k_hat", "its axis, B along the third", "", "(29)", columns=("k2", "k3"),
-            text=lambda parts: in_brackets(("0", *parts)), checked="ball k_hat", certified=True,
+            text=lambda components: in_brackets(("0", *components)), checked="ball k_hat", certified=True,
         ),
     ),
     (

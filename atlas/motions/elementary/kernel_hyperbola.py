@@ -455,11 +455,11 @@ class Hyperbola(Shown):
         with workprec():
             return nearest(root(abs(I2 - I3) / I2 * B2 * B2)) or abs(self.B2)
 
-    def _over(self, formula: Callable[..., Any], omega2: Any, **more: Any) -> Any:
+    def _over(self, formula: Callable[..., Any], omega2: Any, **options: Any) -> Any:
         """Return the results of a formula of I2, I3, B2, B3 and omega2 (rad/time, any shape), each rounded once.
 
-        Raises DomainError at an omega2 where (71) does not hold. ``more`` is passed to `over`.
+        Raises DomainError at an omega2 where (71) does not hold. ``options`` is passed to `over`.
         """
         omega2 = real(omega2, "omega2", RATE)
         check_curve(self.B2, omega2)
-        return over(formula, *self._inputs, omega2, unit=slice(2, None), **more)
+        return over(formula, *self._inputs, omega2, unit=slice(2, None), **options)

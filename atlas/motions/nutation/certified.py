@@ -246,12 +246,12 @@ class Nutating:
     def quaternion(self, t: Any) -> list[arb]:
         """Return a unit quaternion (w, x, y, z) of R(t), of either sign, a list of four balls; t is taken exactly."""
         if self.is_steady and self.kind != "at rest":
-            (k, phi), last = self.steady_rates(), AXES[self.places[2]]
+            (k, phi), axis = self.steady_rates(), AXES[self.places[2]]
             (s, c), (S, C) = (sin_cos(rate * rational(t, "the time") / 2) for rate in (k, phi))
             n = [x * s / length(*self.turning_axis) for x in self.turning_axis]
-            across = cross(n, last)
-            along = [c * S * x + C * y + S * z for x, y, z in zip(last, n, across, strict=True)]
-            return [c * C - S * dot(n, last), *along]
+            normal = cross(n, axis)
+            vector_part = [c * S * x + C * y + S * z for x, y, z in zip(axis, n, normal, strict=True)]
+            return [c * C - S * dot(n, axis), *vector_part]
         a, b, _, _ = self.solution.parameters(t)
         q = self.from_frame(a, b)
         size = sum((x * x for x in q), arb(0)).sqrt()

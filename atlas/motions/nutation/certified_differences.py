@@ -58,8 +58,8 @@ class Differences:
         """
         for steps, weights in SIDES:
             try:
-                moved = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
-                motions = [self.make(*x) if n else self.here for n, x in zip(steps, moved, strict=True)]
+                inputs = [[x + n * h if i == place else x for i, x in enumerate(self.values)] for n in steps]
+                motions = [self.make(*x) if n else self.here for n, x in zip(steps, inputs, strict=True)]
             except DomainError:
                 continue
             return [(x, w / arb(2 * h), n / arb(h)) for x, w, n in zip(motions, weights, (1, -2, 1), strict=True)]

@@ -176,8 +176,8 @@ def _order(motion: Any) -> list[int]:
     It is [0, 1, 2] for a ``motion`` without three moments.
     """
     inertia = tuple(getattr(motion, "inertia", ()))
-    last = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
-    return [(last + 1) % 3, (last + 2) % 3, last]
+    axis = next((i for i in (2, 0, 1) if inertia[i - 1] == inertia[i - 2]), 2) if len(inertia) == 3 else 2
+    return [(axis + 1) % 3, (axis + 2) % 3, axis]
 
 
 def _start(motion: Any) -> tuple[Body, FloatArray, float]:

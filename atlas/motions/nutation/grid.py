@@ -151,7 +151,7 @@ class Windows:
 
     def __init__(self, grid: Grid, length: int, size: int) -> None:
         self.grid, self.length = grid, length
-        self.nodes, self.table, self.last = interpolation(length)
+        self.nodes, self.table, self.last_coefficients = interpolation(length)
         self.evaluation = Evaluation(grid.motion.pair, NODES * size)
         self.values = np.empty((NODES * size, 9))
 
@@ -163,7 +163,7 @@ class Windows:
         index = self.nodes[:, None] + self.length * np.arange(float(i), float(j))
         values = self.values[: index.size]
         self.grid.fill(self.evaluation, index.reshape(-1), values)
-        smooth = np.abs(self.last @ values.reshape(NODES, -1)).max() <= MAX_LAST_COEFFICIENT
+        smooth = np.abs(self.last_coefficients @ values.reshape(NODES, -1)).max() <= MAX_LAST_COEFFICIENT
         return values.reshape(NODES, j - i, 9).swapaxes(0, 1), bool(smooth)
 
 

@@ -179,13 +179,13 @@ class Blocks:
 
     def __init__(self, inputs: Sequence[Any], shape: tuple[int, ...]) -> None:
         self.inputs, self.shape, self.count = inputs, shape, prod(shape)
-        self._kept: list[Block] = []
+        self._cached_blocks: list[Block] = []
 
     def __iter__(self) -> Iterator[Block]:
         if self.count > BLOCK:
             return self.each()
-        self._kept = self._kept or [*self.each()]
-        return iter(self._kept)
+        self._cached_blocks = self._cached_blocks or [*self.each()]
+        return iter(self._cached_blocks)
 
     def each(self) -> Iterator[Block]:
         """Yield the blocks of motions, in order."""

@@ -57,13 +57,13 @@ class Scalars:
 
     def __init__(self, blocks: Blocks) -> None:
         self.blocks = blocks
-        self._known: dict[str, Rounded] = {}
+        self._cached_results: dict[str, Rounded] = {}
 
     def __getitem__(self, name: str) -> Rounded:
         """Return the `Rounded` of a scalar by its name."""
-        if name not in self._known:
+        if name not in self._cached_results:
             self._fill(self._values(name))
-        return self._known[name]
+        return self._cached_results[name]
 
     def _values(self, name: str) -> Callable[[Block], dict[str, Rounded]]:
         """Return the function from a `Block` to the scalar ``name`` and all others of its pass, by name."""
@@ -78,7 +78,7 @@ class Scalars:
                 rounded_roots.setdefault(name, []).append(scalar)
         for name, all_of_it in rounded_roots.items():
             columns = (np.concatenate(x, axis=-1)[..., :count] for x in zip(*all_of_it, strict=True))
-            self._known[name] = Rounded(*columns)
+            self._cached_results[name] = Rounded(*columns)
 
 
 def rounded(x: DoubleDouble, block: Block, degree: int = 0) -> Rounded:
@@ -154,8 +154,8 @@ def _all_roots(block: Block) -> dict[str, Rounded]:
     gone = r.ball | two
     roots = np.sort([*ends.values, np.where(gone, np.inf, x), np.where(gone, np.inf, y)], axis=0).astype(complex)
     roots[2:, two] = np.array([x - 1j * z, x + 1j * z])[:, two]
-    sure = np.logical_and.reduce([x.is_certain for x in rounded_roots]) & (r.discriminant.rel < 0.5)
-    return {"turning_points": ends, "roots": Rounded(roots, ends.is_certain & (r.ball | sure) & ~r.is_excluded)}
+    is_certain = np.logical_and.reduce([x.is_certain for x in rounded_roots]) & (r.discriminant.rel < 0.5)
+    return {"turning_points": ends, "roots": Rounded(roots, ends.is_certain & (r.ball | is_certain) & ~r.is_excluded)}
 
 
 def _angles(block: Block) -> dict[str, Rounded]:

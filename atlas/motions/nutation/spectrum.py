@@ -32,10 +32,10 @@ def of_nutation(motion: Any, exact: Any) -> Wheels:
         return Wheels(n, p, a, s, np.empty(0), lambda quantity, _: function_of(motion, quantity)(0.0)[None])
     M = np.pi / half
     t = np.linspace(0.0, 2 * half, 4)  # a passage through a pole counts half a turn less: then S would change its sign
-    first, later = motion.rotation(t), motion.rotation(t + 2 * half)
+    before, after = motion.rotation(t), motion.rotation(t + 2 * half)
     p, s = min(
         ((p + k * M / 2, s + k * M / 2) for k in (0, 1)),
-        key=lambda x: float(abs(rodrigues(n, 2 * x[0] * half) @ first @ rodrigues(a, 2 * x[1] * half) - later).max()),
+        key=lambda x: float(abs(rodrigues(n, 2 * x[0] * half) @ before @ rodrigues(a, 2 * x[1] * half) - after).max()),
     )
 
     def at(quantity: str, x: FloatArray) -> FloatArray:

@@ -74,7 +74,8 @@ class ParticleMotion(Shown):
         )
         self.shape = common_shape(mu_.shape, c_.shape, *(x.shape[:-1] for x in (E_, B_, y, v)))
         inputs = [mu_, c_, *(x[..., i] for x in (E_, B_, v, y) for i in range(3))]
-        self._all = Charge([np.broadcast_to(x, self.shape).reshape(-1) if self.shape else float(x) for x in inputs])
+        columns = [np.broadcast_to(x, self.shape).reshape(-1) if self.shape else float(x) for x in inputs]
+        self._particles = Charge(columns)
         self.mu, self.E, self.B, self.y0, self.v0, self.c = plain(mu_), E_, B_, y, v, plain(c_)
         self.arguments = {"mu": self.mu, "E": E_, "B": B_, "position": y, "velocity": v, "c": self.c}
 
@@ -178,7 +179,7 @@ class ParticleMotion(Shown):
         DomainError
             Without a magnetic force.
         """
-        self._all.needs_field("period")
+        self._particles.needs_field("period")
         return finite(turn_time(self.cyclotron_frequency), "The period")
 
     @property
@@ -284,7 +285,7 @@ class ParticleMotion(Shown):
 
         For one particle a number, a string, or the array of a vector.
         """
-        values = getattr(self._all, name)
+        values = getattr(self._particles, name)
         if self.shape:
             return frozen(values.reshape(self.shape + values.shape[1:]))
         return frozen(values) if np.ndim(values) else np.asarray(values).item()
@@ -299,13 +300,13 @@ class ParticleMotion(Shown):
         times, out = np.broadcast_to(times, full_shape), np.empty((*full_shape, 3))
         rows = out.reshape(-1, 3)
         if not self.shape:
-            fill(self._all, times.reshape(-1), rows)
+            fill(self._particles, times.reshape(-1), rows)
             return out
         own_shape = (1,) * (len(full_shape) - len(self.shape)) + self.shape
         indices = np.broadcast_to(np.arange(prod(own_shape)).reshape(own_shape), full_shape)
         for start in range(0, times.size, BLOCK):
             block = slice(start, start + BLOCK)
             moment = np.asarray(times.flat[block])
-            selected = self._all.at(indices.flat[block], moment, centre=fill is Charge.fill_centre)
+            selected = self._particles.at(indices.flat[block], moment, centre=fill is Charge.fill_centre)
             fill(selected, moment, rows[block])
         return out

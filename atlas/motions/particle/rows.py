@@ -191,12 +191,12 @@ class Charge:
         ]  # fmt: skip
         return np.array(KINDS)[np.select(chosen, [0, 1, 2, 3, 1, 2, 4, 5], 6)]
 
-    def needs_field(self, what: str) -> None:
+    def needs_field(self, quantity: str) -> None:
         """Raise DomainError if one of the particles feels no magnetic force.
 
-        ``what`` is the quantity that needs one.
+        ``quantity`` is the text of what needs one.
         """
-        check_force(self.force, what)
+        check_force(self.force, quantity)
 
     @cached_property
     def velocity_parts(self) -> FloatArray:
@@ -279,8 +279,8 @@ class Charge:
             return particle.rate(*(rational(float(x)) for x in inputs))
 
     def _row_components(self, name: str, undivided: FloatArray) -> FloatArray:
-        parts = self._over(name, 9)
-        components = parts.reshape(3, 3, *parts.shape[1:])
+        terms = self._over(name, 9)
+        components = terms.reshape(3, 3, *terms.shape[1:])
         without = np.zeros_like(components)
         without[0] = undivided
         return _check(np.where(self.force, components, without), TOO_LARGE[name])
@@ -302,11 +302,11 @@ class Charge:
     def _results(self, name: str, count: int, rounded: Callable[[Number], float]) -> FloatArray:
         formula = getattr(particle, name)
 
-        def alone(*row: float) -> list[float]:
+        def row_values(*row: float) -> list[float]:
             with workprec():
                 return [rounded(x) for x in _sequence(formula(*map(rational, row)))]
 
-        return np.array(over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, alone=alone))
+        return np.array(over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, alone=row_values))
 
 
 def _any(components: Any) -> Any:

@@ -119,7 +119,7 @@ def _of_paths(curve: Curve, paths_per_zero: int) -> Lattice:
     """
     ways, why, paths = list[list[acb]](), "no paths between zeros were found.", curve.paths(paths_per_zero)
     for path in paths:
-        ways.append(list(curve.along(*path)))
+        ways.append(list(curve.integrals(*path)))
         if len(ways) >= MIN_PATHS:
             try:
                 gone = zip(paths, ways, strict=False)

@@ -134,7 +134,7 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
     """
     with workprec(BITS):
         curve = Curve(motion)
-        periods = [curve.along(*path) for path in curve.paths()]
+        periods = [curve.integrals(*path) for path in curve.paths()]
         pairs = [[2 * x.real, 2 * y.real] for x, y, _ in periods]
         return [(x.mid(), y.mid()) for x, y in sums(pairs, generating(pairs))]
 
@@ -265,17 +265,17 @@ class Curve:
             for x, weight in rule(NODES, BITS):
                 yield arb.pi() * low + half * (1 + x), half * weight
 
-    def along(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
+    def integrals(self, start: acb, stop: acb) -> tuple[acb, acb, acb]:
         """Return (T_H, T_F, T_c), -2i times the integrals of D, z and v du/eta along a path, as complex balls.
 
         eta^2 = Psi, see the module. ``start`` and ``stop`` are zeros u; the balls have radius 0. The sign, which
         all three share, is arbitrary. Raises NotCertifiedError where the integrals lose all digits.
         """
-        way, g = stop - start, acb_poly(self.g)
+        displacement, g = stop - start, acb_poly(self.g)
         sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None
         for s, weight in self.nodes(start, stop):
             sin, cos = s.sin_cos()
-            z, v = self.at(start + way * (1 - cos) / 2)
+            z, v = self.at(start + displacement * (1 - cos) / 2)
             square = (g(z) + 2 * self.motion.c * v) / sin**2
             if square.rel_accuracy_bits() < MIN_KNOWN_BITS:
                 raise NotCertifiedError("not certified: integrals between zeros of the motion's torus lose all digits.")
@@ -286,7 +286,7 @@ class Curve:
             sum_D += term
             sum_z += z * term
             sum_v += v * term
-        factor = acb(0, -1) * way
+        factor = acb(0, -1) * displacement
         return centre(sum_D * factor * self.motion.D), centre(sum_z * factor), centre(sum_v * factor)
 
 

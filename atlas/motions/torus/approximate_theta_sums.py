@@ -253,11 +253,11 @@ def inverse(w: Any) -> Any:
 
     The residual is summed from halves of 26 digits, so that only the last step rounds.
     """
-    near = reciprocal(w)
-    (a, a_low), (b, b_low) = _halves(w), _halves(near)
-    product, rest = two_sum(a.real * b.real, -a.imag * b.imag)
-    residual = (1 - product) - rest - 1j * (a.real * b.imag + a.imag * b.real)  # exact
-    return near + near * (residual - (a * b_low + a_low * near))
+    quotient = reciprocal(w)
+    (a, a_low), (b, b_low) = _halves(w), _halves(quotient)
+    product, low = two_sum(a.real * b.real, -a.imag * b.imag)
+    residual = (1 - product) - low - 1j * (a.real * b.imag + a.imag * b.real)  # exact
+    return quotient + quotient * (residual - (a * b_low + a_low * quotient))
 
 
 def reciprocal(w: Any) -> Any:

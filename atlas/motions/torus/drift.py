@@ -122,8 +122,8 @@ class TorusGrid:
         I, B, omega = (np.array(x, dtype=np.float64) for x in (motion.inertia, motion.field, motion.omega))
         self.rate, self.unit = (2.0 ** np.frexp(abs(x).max())[1] for x in (np.append(B, omega), I))
         self.I = (I / self.unit)[:, None, None]
-        self.free, angle = not B.any(), 2 * np.pi * np.arange(FIRST_NODES) / FIRST_NODES
-        if self.free:
+        self.is_free, angle = not B.any(), 2 * np.pi * np.arange(FIRST_NODES) / FIRST_NODES
+        if self.is_free:
             period = self.rate * float(motion.period)
             Omega = motion.angular_velocity(angle / (2 * np.pi) * motion.period)
             K, size = 0 * Omega, (FIRST_NODES, 1)
@@ -140,7 +140,7 @@ class TorusGrid:
             self.angles = np.zeros(2)
         Omega, K = (x.T.reshape(3, *size) / self.rate for x in (Omega, K))
         self.states: FloatArray = np.concatenate([self.I * (Omega + K), K])
-        self.held = self.states
+        self.stored_states = self.states
         self.integrals = self._gradients(self.states)[1][:, 0, 0]
 
     def _gradients(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -150,7 +150,7 @@ class TorusGrid:
         """
         (M, K), I = np.split(x, 2), self.I
         rows = [(M / I, I * K), (2 * M, -2 * I.prod() / I * K)]
-        rows += [] if self.free else [(K, M), (0 * K, 2 * K)]
+        rows += [] if self.is_free else [(K, M), (0 * K, 2 * K)]
         gradients = np.array([np.concatenate(row) for row in rows])
         return gradients, (gradients * x).sum(1) / 2
 
@@ -159,7 +159,7 @@ class TorusGrid:
 
         For a free body they are of H alone, (1, 6, n1, n2).
         """
-        gradients = self._gradients(x)[0][: 1 if self.free else 2]
+        gradients = self._gradients(x)[0][: 1 if self.is_free else 2]
         M, K = np.split(x, 2)
         of_M, of_K = np.split(gradients, 2, axis=1)
         flows = [np.concatenate([_cross(M, u) + _cross(K, v), _cross(K, u)]) for u, v in zip(of_M, of_K, strict=True)]
@@ -174,8 +174,8 @@ class TorusGrid:
         size[2:] += y[3:] * [self.I.max(), 1.0][: len(y) - 2]
         for _ in range(MAX_NEWTON):
             gradients, values = self._gradients(x)
-            lacking = y[:, None, None] - values
-            error = float((abs(lacking).max((1, 2)) / size).max())
+            residual = y[:, None, None] - values
+            error = float((abs(residual).max((1, 2)) / size).max())
             if error <= tolerance:
                 return x
             if not error < 1 / tolerance:
@@ -183,7 +183,7 @@ class TorusGrid:
             rows = np.moveaxis(gradients.reshape(*gradients.shape[:2], -1), -1, 0)
             columns = rows.swapaxes(1, 2)
             try:
-                weights = np.linalg.solve(rows @ columns, lacking.reshape(len(y), -1).T[..., None])
+                weights = np.linalg.solve(rows @ columns, residual.reshape(len(y), -1).T[..., None])
             except np.linalg.LinAlgError:
                 break
             x = x + (columns @ weights)[..., 0].T.reshape(x.shape)
@@ -197,8 +197,8 @@ class TorusGrid:
         flows = np.moveaxis(self._flows(x)[1], (0, 1), (-1, -2))
         slopes = np.fft.ifft2(1j * _waves(x)[: flows.shape[-1], None] * np.fft.fft2(x)).real
         try:
-            right = flows.mT @ np.moveaxis(slopes, (0, 1), (-1, -2))
-            a: FloatArray = np.asarray(np.linalg.solve(flows.mT @ flows, right), dtype=np.float64)
+            right_side = flows.mT @ np.moveaxis(slopes, (0, 1), (-1, -2))
+            a: FloatArray = np.asarray(np.linalg.solve(flows.mT @ flows, right_side), dtype=np.float64)
         except np.linalg.LinAlgError:
             raise LostTorusError("flows along each other") from None
         return np.moveaxis(a, (-1, -2), (0, 1)), np.linalg.det(a)
@@ -241,18 +241,18 @@ class TorusGrid:
         the nine means.
         """
         products = np.concatenate([x * x, x[:3] * x[3:]])
-        whole, half = (y.mean((1, 2)) for y in (products, products[:, :, ::2] if axis else products[:, ::2]))
-        return float(abs(half - whole).max() / abs(whole).max())
+        means, half_means = (y.mean((1, 2)) for y in (products, products[:, :, ::2] if axis else products[:, ::2]))
+        return float(abs(half_means - means).max() / abs(means).max())
 
     def follow(self, y: FloatArray) -> None:
-        """Move the grid to the torus of the integrals y (r,): from the last torus, or else from the stored one, `held`.
+        """Move the grid to the torus of the integrals y (r,): from the last torus, or else from `stored_states`.
 
         Raises LostTorusError if both fail.
         """
         try:
             self._follow(y, self.states)
         except LostTorusError:
-            self._follow(y, self.held)
+            self._follow(y, self.stored_states)
 
     def _follow(self, y: FloatArray, states: FloatArray) -> None:
         """Move the grid ``states`` to the torus of the integrals y (r,), and change its nodes until means converge.
@@ -289,12 +289,12 @@ class TorusGrid:
         For a free body it is the angle about M, in the one period.
         """
         (M, K), turns = np.split(self.x, 2), []
-        axis, spins = (M if self.free else K), self._flows(self.x)[0][:, :3]
+        axis, spins = (M if self.is_free else K), self._flows(self.x)[0][:, :3]
         square = (axis * axis).sum(0)
-        across = square - axis * axis  # off each principal axis, where Euler's angle of precession fails
-        rates = ((axis * spins).sum(1)[:, None] - axis * spins) * np.sqrt(square) / across
+        transverse = square - axis * axis  # off each principal axis, where Euler's angle of precession fails
+        rates = ((axis * spins).sum(1)[:, None] - axis * spins) * np.sqrt(square) / transverse
         for i, (a, before) in enumerate(zip(self.a, self.angles, strict=True)):
-            margin = across.min(1 + i)
+            margin = transverse.min(1 + i)
             pole, line = np.unravel_index(margin.argmax(), margin.shape)
             turn = 2 * np.pi * np.take((a * rates[:, pole]).sum(0), line, 1 - i).mean()
             turns.append(turn - 2 * np.pi * np.round((turn - before) / (2 * np.pi)))
@@ -308,10 +308,10 @@ class TorusGrid:
         M, spins = self.x[:3], self._flows(self.x)[0][:, :3]
         periods = 2 * np.pi * self.a.mean((2, 3))
         line = np.linalg.inv(periods)[0]
-        b, p = (0.0, np.sqrt(y[1])) if self.free else (np.sqrt(y[3]), y[2] / np.sqrt(y[3]))
+        b, p = (0.0, np.sqrt(y[1])) if self.is_free else (np.sqrt(y[3]), y[2] / np.sqrt(y[3]))
         work = (self.a * (M * spins).sum(1)).sum(1).mean((1, 2)) - self.angles * p / (2 * np.pi)
-        still = [0.0] * self.free
-        return np.array([*(2 * np.pi * line), *still, self.angles @ line - b]), np.array([*work, *still, p])
+        zeros = [0.0] * self.is_free
+        return np.array([*(2 * np.pi * line), *zeros, self.angles @ line - b]), np.array([*work, *zeros, p])
 
 
 def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatArray) -> AsymmetricDrift:
@@ -361,14 +361,14 @@ def of_torus(motion: AsymmetricMotion, t: FloatArray, field: float, drag: FloatA
                 raise DomainError(
                     f"The averaged motion can't be followed further than t = {solver.t / rate:.6g}: {message}"
                 )
-            reached, torus.held = solver.y, torus.states
+            reached, torus.stored_states = solver.y, torus.states
         if solver and time:
             dense = dense or solver.dense_output()
         y = dense(time) if dense else start
         torus.follow(y[:count])
         records.append([*y, *np.concatenate(torus.rates(y[:count])), *torus.states[:, 0, 0]])
     rows = np.array(records)
-    H, F, c = rows[:, 0], rows[:, 1], 0.0 if torus.free else rows[:, 2]
+    H, F, c = rows[:, 0], rows[:, 1], 0.0 if torus.is_free else rows[:, 2]
     phases, f, J, M, K = np.split(rows[:, count:], 5, axis=1)
     size = unit * rate
     return AsymmetricDrift(
@@ -393,8 +393,8 @@ def _waves(x: FloatArray) -> FloatArray:
 
 def _smoothed(x: FloatArray) -> FloatArray:
     """Return a grid x (6, n1, n2) without waves shorter than the fraction `SMOOTH` of its nodes."""
-    kept = [abs(np.fft.fftfreq(n)) <= SMOOTH for n in x.shape[1:]]
-    return np.fft.ifft2(np.fft.fft2(x) * np.outer(*kept)).real
+    masks = [abs(np.fft.fftfreq(n)) <= SMOOTH for n in x.shape[1:]]
+    return np.fft.ifft2(np.fft.fft2(x) * np.outer(*masks)).real
 
 
 def _doubled(x: FloatArray, axis: int) -> FloatArray:

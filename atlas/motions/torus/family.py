@@ -17,7 +17,7 @@ FAMILY = Family(
         Quantity("agreement", "of R, K, Omega", exact=lambda _: "every digit is proven", tabled=False, slow=True),
         Quantity(
             "frequencies", "of the torus", RATE, columns=("f1", "f2", "f3"), missing="no torus", certified=True,
-            slow=True, drawn=lambda motion, near: motion._frequencies_near(near),  # noqa: SLF001  of this folder
+            slow=True, drawn=lambda motion, reference: motion._frequencies_near(reference),  # noqa: SLF001  of this folder
             lines=(
                 ("f1", "first frequency of M and K, in a chosen basis"),
                 ("f2", "second frequency of M and K, in a chosen basis"),

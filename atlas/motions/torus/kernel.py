@@ -53,16 +53,16 @@ MAX_TERM = 4
 """Largest integer in a change of the basis of frequencies that is tried."""
 
 
-def in_basis_near(frequencies: list[float], near: list[float]) -> list[float]:
-    """Return [f1, f2, f3] of a torus in the basis nearest to ``near``, the three frequencies of another torus."""
+def in_basis_near(frequencies: list[float], reference: list[float]) -> list[float]:
+    """Return [f1, f2, f3] of a torus in the basis nearest to ``reference``, the three frequencies of another torus."""
     f1, f2, f3 = frequencies
     integers = np.arange(-MAX_TERM, MAX_TERM + 1)
     a, b = (x.ravel() for x in np.meshgrid(integers, integers))
     combined = a * f1 + b * f2
-    distance = abs(combined - near[0])[:, None] + abs(combined - near[1])
+    distance = abs(combined - reference[0])[:, None] + abs(combined - reference[1])
     is_basis = abs(a[:, None] * b - b[:, None] * a) == 1
     first, second = np.unravel_index(np.where(is_basis, distance, np.inf).argmin(), distance.shape)
-    nearest_multiple = combined[abs(f3 + combined - near[2]).argmin()]
+    nearest_multiple = combined[abs(f3 + combined - reference[2]).argmin()]
     return [combined[first], combined[second], f3 + nearest_multiple]
 
 
@@ -460,12 +460,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         frequencies = self._of_each(lambda single: floats(enclosed(lambda: single.exact.frequencies, BITS)))
         return np.asarray(finite(np.array(frequencies), "A frequency"))
 
-    def _frequencies_near(self, near: list[float]) -> FloatArray:
-        """Return f1, f2, f3, shape (..., 3), in rad/time, not proved, in the basis nearest to the frequencies `near`.
+    def _frequencies_near(self, reference: list[float]) -> FloatArray:
+        """Return f1, f2, f3, shape (..., 3), in rad/time, not proved, in the basis nearest to `reference`.
 
         A torus has f1 and f2 but for integer combinations of determinant 1 or -1, and f3 but for multiples of both.
         """
-        return np.asarray(self._of_each(lambda single: in_basis_near(single.approximate_frequencies(), near)))
+        return np.asarray(self._of_each(lambda single: in_basis_near(single.approximate_frequencies(), reference)))
 
     @classmethod
     def _from_start(cls, start: Start) -> tuple[Any, FloatArray] | None:  # type: ignore[override]

@@ -131,8 +131,8 @@ class Certified:
         For ``size`` see `rounded`. Times are taken in ascending order, where they share work.
         """
         ascending = sorted(range(len(times)), key=times.__getitem__)
-        for first in range(0, len(times), STATE_CACHE_SIZE):
-            block = ascending[first : first + STATE_CACHE_SIZE]
+        for start in range(0, len(times), STATE_CACHE_SIZE):
+            block = ascending[start : start + STATE_CACHE_SIZE]
             if len(block) > 1:
                 with workprec(FIRST_BITS):
                     self.exact.follow([times[i] for i in block])
