@@ -94,7 +94,7 @@ class Phases:
         with workprec():
             fastest = max(abs(p * QUARTER) for p in halves)
             self._within(_reach(fastest))
-            self.near = nearest(MAX_NEAR_PHASE / fastest) if fastest != 0 else inf
+            self.max_near_time = nearest(MAX_NEAR_PHASE / fastest) if fastest != 0 else inf
             self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
         if self.origins is not None:
             first_origin, low = self.origins
@@ -202,7 +202,7 @@ class Phases:
         self._keep(words)
         is_still = words[0] == 0
         self.exponents = np.where(is_still, ZERO_EXPONENT, 0) if is_still.any() else None
-        self.origins, self.rounder, self.near = None, ROUNDER, -1.0
+        self.origins, self.rounder, self.max_near_time = None, ROUNDER, -1.0
         self._within(inf)
         return self
 
@@ -264,7 +264,7 @@ class Phases:
         np.subtract(upper, t, out=lower)
         upper -= lower
         np.subtract(t, upper, out=lower)
-        if farthest_time <= self.near:
+        if farthest_time <= self.max_near_time:
             if low is not None:
                 lower += low
                 t = t + low
@@ -317,7 +317,7 @@ class Phases:
         and so is its remainder without whole half turns; the products of the rest are below 1/4. A matrix product
         sums them, the largest last. For other phases the result is that of `reduced`.
         """
-        if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.near:
+        if self.exponents is not None or not farthest(t) <= NEAR_PHASE_RATIO * self.max_near_time:
             half, _, half_turns, _ = self.reduced(t, work[..., : t.size], low)
             if turns is not None:
                 turns[:] = half_turns

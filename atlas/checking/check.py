@@ -259,11 +259,11 @@ def check(
         for name, values in runs.items():
             if values is not None and (not hasattr(values, "__len__") or len(values) != len(t)):
                 raise AtlasError(f"For {len(t)} runs {name} must be a list of {len(t)}, one for each.")
-        each: list[dict[str, Any]] = [
+        run_arguments: list[dict[str, Any]] = [
             {name: None if x is None else x[i] for name, x in runs.items()} for i in range(len(t))
         ]
-        more = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold, "nan_policy": nan_policy}
-        return convergence([check(times, **(run | more)) for times, run in zip(t, each, strict=True)])
+        settings = {"motion": motion, "scalar_first": scalar_first, "threshold": threshold, "nan_policy": nan_policy}
+        return convergence([check(times, **(run | settings)) for times, run in zip(t, run_arguments, strict=True)])
     trajectory = of_arrays(t, columns, scalar_first=scalar_first, nan_policy=nan_policy)
     if step is not None:
         trajectory = replace(trajectory, parameters={"step": (float(real(step, "step")),)})

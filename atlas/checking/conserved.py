@@ -45,7 +45,7 @@ class Drifts:
     """
 
     def __init__(self, deviations: Callable[[Mapping[str, FloatArray]], Iterable[Deviation]]) -> None:
-        self._deviations, self._found = deviations, dict[str, Drift]()
+        self._deviations, self._drifts = deviations, dict[str, Drift]()
 
     def add(self, block: Mapping[str, FloatArray]) -> None:
         """Take a block of columns (m,) by name: update the largest deviation, its time, and the last deviation."""
@@ -53,14 +53,14 @@ class Drifts:
             size = np.abs(deviations)
             i = int(np.argmax(size))
             worst_row, time = float(size[i]), float(block["t"][i])
-            drift = self._found.get(name)
+            drift = self._drifts.get(name)
             if drift is not None and drift.worst >= worst_row:
                 worst_row, time = drift.worst, drift.worst_time
-            self._found[name] = Drift(name, says, label, worst_row, time, float(size[-1]))
+            self._drifts[name] = Drift(name, says, label, worst_row, time, float(size[-1]))
 
     def drifts(self) -> tuple[Drift, ...]:
         """Return a `Drift` for each conserved quantity that the blocks so far determine."""
-        return tuple(self._found.values())
+        return tuple(self._drifts.values())
 
 
 def of_motion(motion: ElementaryMotion | GeneralMotion, block: Mapping[str, FloatArray]) -> Iterable[Deviation]:

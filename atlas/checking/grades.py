@@ -85,7 +85,7 @@ class Errors:
         }
         differences = {name: np.maximum(errors, self._truth.floor) for name, errors in differences.items()}
         least = np.min(list(differences.values()), axis=0)
-        for i in np.flatnonzero(~rows | (least < self._truth.near)):
+        for i in np.flatnonzero(~rows | (least < self._truth.ball_threshold)):
             for name, error in self.certified(block, int(i)).items():
                 differences[name][i] = error
         return differences
@@ -144,7 +144,7 @@ class Grade:
     def __init__(self, name: str, threshold: float, errors: Errors) -> None:
         self.name, self._errors, self._limit = name, errors, 10.0**-threshold
         self._thousandths: Counter[int] = Counter()
-        self._worst, self._worst_row = 0.0, dict[str, FloatArray]()
+        self._largest_error, self._largest_row = 0.0, dict[str, FloatArray]()
         self._fails_at: float | None = None
 
     def add(self, block: Block, errors: FloatArray) -> None:
@@ -153,8 +153,9 @@ class Grade:
         values, counts = np.unique(np.rint(-1000 * np.log10(counted)).astype(int), return_counts=True)
         self._thousandths.update(dict(zip(values.tolist(), counts.tolist(), strict=True)))
         i = int(np.argmax(counted))
-        if counted[i] > self._worst:
-            self._worst, self._worst_row = float(counted[i]), {name: values[[i]] for name, values in block.items()}
+        if counted[i] > self._largest_error:
+            self._largest_error = float(counted[i])
+            self._largest_row = {name: values[[i]] for name, values in block.items()}
         if self._fails_at is None:
             uncertain = self._errors.uncertainty
             for j in np.flatnonzero(errors > self._limit - uncertain).tolist():
@@ -167,9 +168,9 @@ class Grade:
         values = np.array(sorted(self._thousandths))
         upto = np.cumsum([self._thousandths[value] for value in values.tolist()])
         middle = values[np.searchsorted(upto, [(upto[-1] - 1) // 2, upto[-1] // 2], side="right")]
-        is_certain = self._worst > self._errors.floor
-        largest_error = self._errors.certified(self._worst_row, 0)[self.name] if is_certain else self._errors.floor
-        time = float(self._worst_row["t"][0])
+        is_certain = self._largest_error > self._errors.floor
+        largest_error = self._errors.certified(self._largest_row, 0)[self.name] if is_certain else self._errors.floor
+        time = float(self._largest_row["t"][0])
         return Column(
             self.name, float(middle.mean()) / 1000, -math.log10(max(largest_error, LEAST)), time, self._fails_at
         )

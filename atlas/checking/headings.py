@@ -46,13 +46,13 @@ QUESTIONS = {
 class Heading:
     """Columns of a table by canonical name: indices, names in the file, and factors to s and rad/s.
 
-    `places` has the indices of the columns from 0, `written` the names in the file, `sizes` the factors (1 without
+    `places` has the indices of the columns from 0, `labels` the names in the file, `sizes` the factors (1 without
     a unit), `units` the units as written, "" without one. `left_out` is a sentence on columns that are not used, ""
     without any.
     """
 
     places: Mapping[str, int]
-    written: Mapping[str, str]
+    labels: Mapping[str, str]
     sizes: Mapping[str, Fraction]
     units: Mapping[str, str]
     left_out: str

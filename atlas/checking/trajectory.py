@@ -92,7 +92,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
             parameters |= _parameters(line.lstrip("# "), path.name)
         title = headed(split_cells(names, ",", path.name, len(head) + 1), path.name, extra_names)
         yield Trajectory(
-            path.name, title.written, parameters, _sliced(columns, title, path.name), title.left_out, title.units
+            path.name, title.labels, parameters, _sliced(columns, title, path.name), title.left_out, title.units
         )
         return
 
@@ -111,7 +111,7 @@ def opened(path: Path, *, fields: bool = False) -> Iterator[Trajectory]:
     with opened_table(path, remark, NAMED) as table:
         title = headed(table.names, f"{path.name}, line {table.number}", extra_names)
         blocks = _blocks(table.rows, title, path.name)
-        yield Trajectory(path.name, title.written, parameters, blocks, title.left_out, title.units)
+        yield Trajectory(path.name, title.labels, parameters, blocks, title.left_out, title.units)
 
 
 def with_plurals(function: str, columns: Mapping[str, Any], plural: Mapping[str, Any]) -> dict[str, Any]:
@@ -220,7 +220,7 @@ def _sliced(columns: Mapping[str, FloatArray], title: Heading, file: str) -> Ite
     used = {name: columns[names[i]] for name, i in title.places.items()}
     for name, x in used.items():
         if x.dtype.kind not in "iuf":
-            raise AtlasError(f"{file}: the column {title.written[name]} does not hold numbers.")
+            raise AtlasError(f"{file}: the column {title.labels[name]} does not hold numbers.")
     for start in range(0, len(used["t"]), BLOCK):
         yield _in_units(title, [x[start : start + BLOCK] for x in used.values()])
 
@@ -254,7 +254,7 @@ def _numbers(rows: Sequence[tuple[int, list[str]]], title: Heading, file: str) -
         pass  # 1., +1 and .5 are numbers but no JSON; and a text that is no number is refused below
     return np.array(
         [
-            [number_of(cells[i], f"{file}, line {number}, column {title.written[name]}") for name, i in places]
+            [number_of(cells[i], f"{file}, line {number}, column {title.labels[name]}") for name, i in places]
             for number, cells in rows
         ]
     )

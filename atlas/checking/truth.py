@@ -49,18 +49,19 @@ EXTENDED = bool(np.finfo(np.longdouble).eps < 2e-19)
 class Truth:
     """Reference R, Omega and quaternion of an elementary motion in long doubles, accurate to `uncertainty`.
 
-    Made from the certified motion. `near` and `floor` are 0 and `in_balls` is True, see `KernelTruth`.
+    Made from the certified motion. `ball_threshold` and `floor` are 0 and `in_balls` is True, see `KernelTruth`.
     """
 
     uncertainty = UNCERTAINTY
-    near = floor = 0.0
+    ball_threshold = floor = 0.0
     in_balls = True
 
     def __init__(self, motion: ElementaryMotion) -> None:
         values = enclosed(lambda: (motion.k, motion.phi, *motion.axis, motion.omega2, motion.omega3), BITS)
         with workprec():
             self._phases = Phases([x / TURN for x in values[:2]])
-        self._phases.near = -1.0  # three products of words hold a phase of 2^22 to 2^-59 only, which doubles do not see
+        # three products of words hold a phase of 2^22 to 2^-59 only, which doubles do not see
+        self._phases.max_near_time = -1.0
         self.n2, self.n3, self.omega2, self.omega3 = map(long, values[2:])
 
     def within(self, t: FloatArray) -> NDArray[np.bool_]:
@@ -99,14 +100,14 @@ class KernelTruth:
     """Reference R, Omega and quaternion of a motion by its kernel `single`, accurate to a few units in the last place.
 
     `single` has `rotation(t)` and `angular_velocity(t)`. The values hold for |t| <= `reach` and are accurate to
-    `uncertainty`; `in_balls` says whether there is a certified counterpart. Errors below `near` are computed in
-    balls; errors below `floor` cannot be distinguished from `floor`.
+    `uncertainty`; `in_balls` says whether there is a certified counterpart. Errors below `ball_threshold` are computed
+    in balls; errors below `floor` cannot be distinguished from `floor`.
     """
 
     single: Any
     reach: float
     uncertainty: float = KERNELS
-    near: float = BALL_THRESHOLD * KERNELS
+    ball_threshold: float = BALL_THRESHOLD * KERNELS
     floor: float = 0.0
     in_balls: bool = True
 

@@ -98,17 +98,17 @@ def through(text: str) -> tuple[str, list[Any]]:
     from atlas.pictures.drawing.animation import MAX_FRAMES
 
     key, _, values = text.partition("=")
-    if (typed := TypedRange.of(values, MAX_FRAMES)) is None and "," in values:
+    if (typed_range := TypedRange.of(values, MAX_FRAMES)) is None and "," in values:
         return key, [float(setting(f"{key}={value}")[1]) for value in values.split(",")]
-    if typed is None or typed.is_log:
+    if typed_range is None or typed_range.is_log:
         raise click.UsageError(f"--over takes KEY=START:STOP:COUNT, such as omega2=0:2:60, or KEY=a,b,c, not {text!r}.")
-    ends = [setting(f"{key}={end}")[1] for end in typed[:2]]
+    ends = [setting(f"{key}={end}")[1] for end in typed_range[:2]]
     try:
         start, stop = np.asarray(ends, dtype=float)
-        steps = np.linspace(start, stop, typed.length)
+        steps = np.linspace(start, stop, typed_range.length)
     except (TypeError, ValueError) as error:
         raise click.UsageError(
             "--over goes from a number to a number, or from a list to one as long, not from "
-            f"{typed.start!r} to {typed.stop!r}."
+            f"{typed_range.start!r} to {typed_range.stop!r}."
         ) from error
     return key, [tuple(map(float, value)) if np.ndim(value) else float(value) for value in steps]

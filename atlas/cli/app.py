@@ -28,7 +28,11 @@ WRONG_PATH = {
 CLICK = ("Missing ", "Got unexpected ", "No such ", "Option ")
 """Beginnings of errors of click's parser, which give no remedy."""
 
-SUMMARIES = {one.command.name: one.command.summary for one in FAMILIES.values() if one.command and one.command.summary}
+SUMMARIES = {
+    family.command.name: family.command.summary
+    for family in FAMILIES.values()
+    if family.command and family.command.summary
+}
 """Help lines of the commands that are made from the register."""
 
 BESIDE = {"data": "report", "tex": "report"}
@@ -73,8 +77,8 @@ ELSEWHERE = {
                     "gif, an apng or an mp4"),
     **dict.fromkeys(("pdf", "html", "build"), "atlas report NAME builds a report, and atlas page a page of your own"),
     **dict.fromkeys(("table", "scan"), "atlas sweep makes a table over parameters, atlas motion --out one over times"),
-    **{key: f"its name is atlas {one.command.name}" for key, one in FAMILIES.items()
-       if one.command and key not in GONE and key != one.command.name},
+    **{key: f"its name is atlas {family.command.name}" for key, family in FAMILIES.items()
+       if family.command and key not in GONE and key != family.command.name},
 }  # fmt: skip
 """Sentences on names that are no commands: where their work is done."""
 

@@ -454,20 +454,20 @@ def _fastest(options: Mapping[str, Any]) -> tuple[float, float]:
     velocity, E, B = ([*map(float, options[name] or (0, 0, 0))] for name in ("velocity", "electric", "magnetic"))
     square = hypot(*B) ** 2
     pull = sum(x * y for x, y in zip(E, B, strict=True)) / square if square else 0.0
-    along = [pull * x for x in B] if square else E
+    driving_field = [pull * x for x in B] if square else E
     mu = float(charge_to_mass_of(options, "A point charge"))
     times = [0.0, *map(float, parts_of(chosen_times(dict(options))))] if "times" in options else [0.0]
-    speeds = [hypot(*(v + mu * a * t for v, a in zip(velocity, along, strict=True))) for t in times]
+    speeds = [hypot(*(v + mu * a * t for v, a in zip(velocity, driving_field, strict=True))) for t in times]
     return max(speeds), times[speeds.index(max(speeds))]
 
 
-def start_of(options: Mapping[str, Any], *, needed: bool = True) -> Any:
+def start_of(options: Mapping[str, Any], *, is_required: bool = True) -> Any:
     """Return the initial angular velocity, three numbers in rad/time, from --omega, or from --spin as (0, 0, W3).
 
-    The numbers are components along the body's axes. None if neither is given and it is not `needed`; click.UsageError
-    for both, and for none if `needed`. `options` are the command's, by name.
+    The numbers are components along the body's axes. None if neither is given and none `is_required`; click.UsageError
+    for both, and for none if one is required. `options` are the command's, by name.
     """
     omega, spin = options["omega"], options["spin"]
-    if needed or spin is not None:
+    if is_required or spin is not None:
         one_of(options, "start", ("omega", "spin"), "--omega W1 W2 W3 or --spin W3")
     return omega if spin is None else (0.0, 0.0, spin)

@@ -113,11 +113,11 @@ class OneObject(Command):
 
         The words are read again without each option at fault, so that all faults are found; see `refuse`.
         """
-        faults, dropped, left = list[tuple[str, Exception]](), set[str](), None
-        while left is None:
+        faults, dropped, remaining_words = list[tuple[str, Exception]](), set[str](), None
+        while remaining_words is None:
             ctx.params.clear()
             try:
-                left = super().parse_args(ctx, args)
+                remaining_words = super().parse_args(ctx, args)
             except click.MissingParameter as error:
                 if not (error.param and {*error.param.opts} & dropped):
                     faults.append(("", error))
@@ -131,15 +131,15 @@ class OneObject(Command):
                 dropped |= {name, *(OF_ANGLE if name in OF_ANGLE else ())}
                 args = _without(args, dropped)
         if faults:
-            known = [opt for param in self.params for opt in param.opts]
-            meant = {next(iter(get_close_matches(name, known, 1)), name).removeprefix("--") for name in dropped}
+            option_names = [opt for param in self.params for opt in param.opts]
+            meant = {next(iter(get_close_matches(name, option_names, 1)), name).removeprefix("--") for name in dropped}
             refuse([*faults, *faults_of(self.family, ctx.params, meant)])
-        return left
+        return remaining_words
 
 
 def command_of(family: Family) -> click.Command:
     """Return the click command of a report on an object of a family; it returns (`Asked`, options by name)."""
-    more = [
+    page_options = [
         report_options("build/report"),
         click.option(
             "--digits", type=click.IntRange(1, 100), default=10, show_default=True, help="Number of proven digits."
@@ -162,10 +162,10 @@ def command_of(family: Family) -> click.Command:
     command = click.command(
         family.page, cls=OneObject, family=family, carries=True, help=says, hidden=family.page in GONE
     )
-    return command(stack(*object_options(family), *more)(run))
+    return command(stack(*object_options(family), *page_options)(run))
 
 
-COMMANDS: dict[str, click.Command] = {one.page: command_of(one) for one in FAMILIES.values() if one.command}
+COMMANDS: dict[str, click.Command] = {family.page: command_of(family) for family in FAMILIES.values() if family.command}
 """By the name of the command; the families that are no command of their own have no name here, only options."""
 
 
@@ -179,8 +179,12 @@ def _without(args: list[str], names: Collection[str]) -> list[str]:
     Words that belong to no option come first.
     """
     words = Words(args)
-    kept = ((one.typed, *one.values[one.typed != one.name :]) for one in words.options if one.name not in names)
-    return [*words.loose, *(word for option in kept for word in option)]
+    groups = (
+        (option.typed, *option.values[option.typed != option.name :])
+        for option in words.options
+        if option.name not in names
+    )
+    return [*words.loose, *(word for group in groups for word in group)]
 
 
 def faults_of(
@@ -232,7 +236,7 @@ class TypedFile(NamedTuple):
 
     file: str
     text: str
-    beside: Collection[str]
+    typed_names: Collection[str]
 
     def place(self, sentence: str) -> str:
         """Return "FILE, line N: " for a sentence on an option that the file types; "" for one that is typed beside it.
@@ -240,7 +244,7 @@ class TypedFile(NamedTuple):
         A sentence that names no option has the line of the key `typed`.
         """
         names = re.findall(r"--[\w-]+", sentence)
-        if names and names[0] in self.beside:
+        if names and names[0] in self.typed_names:
             return ""
         lines = self.text.split("\n")
         start = next((k for k, line in enumerate(lines) if re.match(r"\s*typed\b", line)), 0)
@@ -264,25 +268,25 @@ def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
             error.ctx = error.ctx.parent or error.ctx  # whose help has all options
         sentence = explained(error) if isinstance(error, click.ClickException) else str(error)
         says.append(sentence if not option or "--" in sentence else f"{option}: {sentence}")
-    raise FaultsError(f"{file.place(one) if file else ''}{one}" for one in says) from faults[0][1]
+    raise FaultsError(f"{file.place(text) if file else ''}{text}" for text in says) from faults[0][1]
 
 
-def with_errors(wanted: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
+def with_errors(request: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
     """Return (request, options); for uncertain options the request has deviations of the card's numbers in `sigma`.
 
     `options` are the command's, by name, and are not changed.
     """
     from atlas.book.card import numbers
 
-    family, names = wanted.family, [p.name for p in wanted.family.parameters]
+    family, names = request.family, [p.name for p in request.family.parameters]
 
-    def answered(moved: dict[str, Any]) -> dict[str, Any]:
-        return numbers(family, dict(zip(names, values_of(family, moved), strict=True)))
+    def answered(shifted: dict[str, Any]) -> dict[str, Any]:
+        return numbers(family, dict(zip(names, values_of(family, shifted), strict=True)))
 
     if uncertain(options):
         deviations = UncertainAnswer.of(answered, options).spread.sigma
-        wanted = replace(wanted, sigma={place[0]: x for place, x in deviations.items()})
-    return wanted, options
+        request = replace(request, sigma={place[0]: x for place, x in deviations.items()})
+    return request, options
 
 
 class ByOptions(click.Group):
@@ -307,12 +311,12 @@ class ByOptions(click.Group):
         """
         ctx.meta[EXPLAIN] = EXPLAIN in args
         args = [word for word in args if word not in {NAME, EXPLAIN}]
-        if files := [one.values for one in Words(args).options if one.name == "--from"]:
+        if files := [option.values for option in Words(args).options if option.name == "--from"]:
             if len(files) > 1:
                 raise click.UsageError("--from stands twice; give one file, and what differs by options beside it.")
-            file, beside = "".join(files[0][:1]), [*_without(args, {"--from"}), *files[0][1:]]
-            text, typed = typed_in("--from", file)
-            args, ctx.meta[TYPED] = [*typed, *beside], TypedFile(file, text, Words(beside).names)
+            file, later_words = "".join(files[0][:1]), [*_without(args, {"--from"}), *files[0][1:]]
+            text, typed_words = typed_in("--from", file)
+            args, ctx.meta[TYPED] = [*typed_words, *later_words], TypedFile(file, text, Words(later_words).names)
         if args and args[0] in GONE:
             raise click.UsageError(f"atlas page {args[0]} is atlas page motion, or atlas page, with the same options.")
         if args[:1] == ["fit"] and args[1:] and not args[1].startswith("-"):
@@ -375,10 +379,10 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
             return []
-        own = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
+        own_options = {param.name: param.opts[0] for param in context.command.params if param.name in OWN}
         own_words = [
             word
-            for name, option in own.items()
+            for name, option in own_options.items()
             if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
             for word in (option, str(options[name]))
         ]
@@ -395,8 +399,8 @@ def best(words: Words) -> str:
     """
     if "--omega2" in words.names and words.names & {"--omega", "--spin"}:
         family_of(words)
-    known = {name for one in COMMANDS.values() for param in one.params for name in param.opts}
-    option_by_name = {next(iter(get_close_matches(x.name, known, 1)), x.name): x for x in words.options}
+    names = {name for command in COMMANDS.values() for param in command.params for name in param.opts}
+    option_by_name = {next(iter(get_close_matches(x.name, names, 1)), x.name): x for x in words.options}
 
     def misfit(name: str) -> tuple[int, int]:
         parameters = {
@@ -451,7 +455,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
         if options["magnetic"] is not None and body.units_of(options) and body.system_of(options) == "si":
             strength = math.hypot(*_plain(options["magnetic"]))
             records["magnetic"] = (float(body.charge_to_mass_of(options)), strength)
-    title, digits, called = options["title"], options["digits"], file_name(options)
+    title, digits, stem = options["title"], options["digits"], file_name(options)
     context = click.get_current_context(silent=True)
     deviations = context.meta.get(DEVIATIONS) if context else None
     if deviations or uncertain(options):
@@ -460,7 +464,7 @@ def asked(family: Family, options: dict[str, Any]) -> "Asked":
     only, is_page = options["only"], bool(context and context.parent and context.parent.command.name == "page")
     only = only if family.sampled or not is_page else ""  # all that there is of a body without a start
     return Asked(
-        family, typed_options, values, **records, digits=digits, title=title, called=called, note=options["note"],
+        family, typed_options, values, **records, digits=digits, title=title, called=stem, note=options["note"],
         exact=exact, parts=only.split(",") if only else PARTS, only=only, is_page=is_page,
     )  # fmt: skip
 
@@ -502,9 +506,9 @@ def file_name(options: dict[str, Any]) -> str:
 
     Raises click.UsageError for characters other than letters, digits and . + - _.
     """
-    if (called := options["name"] or "") != re.sub(r"[^\w.+-]+", "", called, flags=re.ASCII):
-        raise click.UsageError(f"--name {called!r}: a name has letters, digits and . + - _ only.")
-    return called
+    if (name := options["name"] or "") != re.sub(r"[^\w.+-]+", "", name, flags=re.ASCII):
+        raise click.UsageError(f"--name {name!r}: a name has letters, digits and . + - _ only.")
+    return name
 
 
 def _texts(value: Any) -> tuple[str, ...]:

@@ -116,7 +116,7 @@ def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[s
     from atlas.checking.comparison import Comparison
     from atlas.checking.order import convergence
 
-    parameters["omega"] = body.start_of(options, needed=False)
+    parameters["omega"] = body.start_of(options, is_required=False)
     if given(options, ("field", "magnetic")):
         parameters["field"] = body.chosen_field(options)
     checks = tuple(check_file(file, threshold=options["threshold"], **parameters) for file in files)

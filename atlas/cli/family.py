@@ -201,7 +201,7 @@ class Question:
         return self.named | _answers(family, motion, times, self.sampled) | lines | _input_error(family, motion, times)
 
     @cached_property
-    def near(self) -> list[Any]:
+    def reference_quaternions(self) -> list[Any]:
         """List of quaternions [x, y, z, w] in doubles at the times, for the signs of certified ones.
 
         Each is None where the motion cannot be computed in doubles.
@@ -224,7 +224,9 @@ class Question:
         if moments and not best:
             raise NotCertifiedError(best.reason)
         if options["as_json"] and "R" in values:
-            values["q"] = [_quaternion(motion, *row) for row in zip(moments, values["R"], self.near, strict=True)]
+            values["q"] = [
+                _quaternion(motion, *row) for row in zip(moments, values["R"], self.reference_quaternions, strict=True)
+            ]
         columns = {s.name: values[s.name] for s in self.sampled if s.name in values}
         return self.named | _quantities(quantities, motion, times, columns, exact=True)
 
@@ -452,7 +454,7 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
         motion = _kernel(answering, values) if motion is None else motion
         answers = {"family": answering.name} if named == "motion" else {}
         if values is not options:  # a proof that is a sentence is said once
-            answering = replace(answering, quantities=tuple(_drawn(answering, middle)))
+            answering = replace(answering, quantities=tuple(_quantities_of_draws(answering, middle)))
         answers |= _answers(answering, motion, times, [s for s in sampled if times and hasattr(motion, s.method)])
         middle.update(answers if values is options else {})
         larmor = in_field(family) and values["magnetic"] is not None
@@ -461,14 +463,14 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
     return UncertainAnswer.of(answered, options)
 
 
-def _drawn(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
+def _quantities_of_draws(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
     """Yield the quantities at moved inputs, each read by its `drawn` if it has one; slow ones are left out.
 
     `middle` holds the values at the unmoved inputs, by name.
     """
     for q in family.quantities:
         if q.tabled or not q.slow:
-            yield replace(q, get=partial(q.drawn, near=middle[q.name]) if q.drawn and q.name in middle else q.get)
+            yield replace(q, get=partial(q.drawn, reference=middle[q.name]) if q.drawn and q.name in middle else q.get)
 
 
 def lines_of_quantities(family: Family, texts: dict[str, Any], options: dict[str, Any], named: str = "") -> list[Line]:
@@ -571,9 +573,10 @@ def _balls(family: Family, options: dict[str, Any]) -> Any:
         from atlas.motions.torus.certified_placed import PlacedMotion
 
         body.given_attitude(options)  # raises for wrong values
-        typed = body.as_typed(options)
-        attitude = typed["attitude"] or (0, 0, 0, 1)
-        return PlacedMotion(body.tensor_or_moments(typed), body.chosen_field(typed), body.start_of(typed), attitude)
+        typed_options = body.as_typed(options)
+        attitude = typed_options["attitude"] or (0, 0, 0, 1)
+        tensor, field = body.tensor_or_moments(typed_options), body.chosen_field(typed_options)
+        return PlacedMotion(tensor, field, body.start_of(typed_options), attitude)
     return family.balls()(*values_of(family, options))
 
 
@@ -597,7 +600,7 @@ def object_options(family: Family) -> list[Callable[[Any], Any]]:
         *([body.field_options] if in_plane(family) else []),
         *([body.any_body_options] if of_any_body(family) else []),
         *(
-            _option(p, needed=p.needed and p.name not in family.instead)
+            _option(p, is_required=p.needed and p.name not in family.instead)
             for p in family.parameters
             if p.option and not (of_any_body(family) and p.name in OF_BODY)
         ),
@@ -623,10 +626,10 @@ def in_field(family: Family) -> bool:
     return of_any_body(family) or family.takes("ratio")
 
 
-def _option(p: Parameter, *, needed: bool) -> Callable[[Any], Any]:
-    """Return the decorator of a parameter's option, which is required if `needed`, else has the register's default."""
-    settings: dict[str, Any] = {"required": True} if needed else {}
-    if not needed and p.omitted is not None:
+def _option(p: Parameter, *, is_required: bool) -> Callable[[Any], Any]:
+    """Return the decorator of a parameter's option, with the register's default unless it `is_required`."""
+    settings: dict[str, Any] = {"required": True} if is_required else {}
+    if not is_required and p.omitted is not None:
         default, count = f"{p.omitted:g}", len(p.names)
         settings = {"default": (default,) * count} if count > 1 else {"default": default, "show_default": True}
     quantity, semicolon, condition = p.says.rstrip(".").partition(";")
@@ -654,14 +657,14 @@ def value_of(family: Family, p: Parameter, options: dict[str, Any]) -> Any:
 
     Numbers are doubles, or exact fractions with --decimal; None for an option that may be missing.
     """
-    typed = body.as_typed(options)
+    typed_options = body.as_typed(options)
     if p.name in OF_BODY and (not p.option or of_any_body(family)):
-        return OF_BODY[p.name](typed)
+        return OF_BODY[p.name](typed_options)
     if p.name == "mu":
-        return body.charge_to_mass_of(typed, "A point charge")
+        return body.charge_to_mass_of(typed_options, "A point charge")
     if p.name == "c":
         return body.speed_of_light(options)
-    return body.start_of(typed) if p.name == "omega" and "spin" in options else typed[p.name]
+    return body.start_of(typed_options) if p.name == "omega" and "spin" in options else typed_options[p.name]
 
 
 def sample(s: Sampled, motion: Any, t: Any, best: Best) -> Any:

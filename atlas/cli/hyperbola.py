@@ -57,8 +57,9 @@ def command(**options: Any) -> None:
     def balls() -> dict[str, Any]:
         from atlas.motions.elementary.certified_hyperbola import Hyperbola
 
-        typed = as_typed(options)
-        curve, abscissas = Hyperbola(chosen_body(typed), chosen_field(typed)), [exactly(x, options) for x in points]
+        typed_options = as_typed(options)
+        curve = Hyperbola(chosen_body(typed_options), chosen_field(typed_options))
+        abscissas = [exactly(x, options) for x in points]
         pairs = [curve.frequencies(x) for x in abscissas]
         columns = ([p[0] for p in pairs], [p[1] for p in pairs], [curve.stability(x) for x in abscissas])
         return described(curve, points, [curve.omega3(x) for x in abscissas], *columns)

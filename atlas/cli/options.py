@@ -187,8 +187,8 @@ def chosen_times(options: dict[str, Any]) -> Sequence[float]:
 
     def time(i: int) -> Typed:
         t = first_step + by * i
-        moved: Typed = start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
-        return moved
+        value: Typed = start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
+        return value
 
     times = Steps(range(int(count)), time)
     try:

@@ -44,17 +44,17 @@ def of_fit(file: Path, **options: Any) -> int:
     from atlas.book.fit_report import Fitted
     from atlas.fitting import fit_file
 
-    typed = typed_options_of((options.keys() - OWN) | {"file"}, {"file": file, **options})
-    called, given = file_name(options), dict(arguments(options))
-    found = {name: p for name, p in fitted(file, options).parameters.items() if not p.expr}
-    given["fix"] = {name: p.value for name, p in found.items() if not p.vary}
-    given["params"] = {name: p.value for name, p in found.items() if p.vary}
-    result = fit_file(file, **given)  # as the recipe of the page's picture finds it
-    wanted = Fitted(
-        result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed,
-        given, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"], called,
+    typed_options = typed_options_of((options.keys() - OWN) | {"file"}, {"file": file, **options})
+    stem, fit_arguments = file_name(options), dict(arguments(options))
+    parameters = {name: p for name, p in fitted(file, options).parameters.items() if not p.expr}
+    fit_arguments["fix"] = {name: p.value for name, p in parameters.items() if not p.vary}
+    fit_arguments["params"] = {name: p.value for name, p in parameters.items() if p.vary}
+    result = fit_file(file, **fit_arguments)  # as the recipe of the page's picture finds it
+    request = Fitted(
+        result, os.path.relpath(file, options["out"]), sha256(file.read_bytes()).hexdigest()[:12], typed_options,
+        fit_arguments, motion_of(result.motion), tuple(ahead(result, options)[1]), options["title"], stem,
     )  # fmt: skip
-    built = build(wanted.name, wanted.sources(), options["out"], options["jobs"], FORMATS)
+    built = build(request.name, request.sources(), options["out"], options["jobs"], FORMATS)
     click.echo(f"{built.single}\n{built.pdf}")
     status = status_of(built)
     for warning in result.warnings:
@@ -62,11 +62,11 @@ def of_fit(file: Path, **options: Any) -> int:
     return status or (1 if result.warnings else 0)
 
 
-def motion_of(made: Any) -> Any:
+def motion_of(motion: Any) -> Any:
     """Return the request, an `Asked`, of a report on a motion object of Python, along its principal axes."""
-    own = in_principal_axes(made, fitted=True)
-    with COMMANDS[own.family.page].make_context(own.family.name, own.options) as context:
-        return asked(own.family, context.params)
+    principal = in_principal_axes(motion, fitted=True)
+    with COMMANDS[principal.family.page].make_context(principal.family.name, principal.options) as context:
+        return asked(principal.family, context.params)
 
 
 @click.group(

@@ -88,13 +88,13 @@ def figure_of(table: Path, x: str, y: Sequence[str], width_mm: float) -> "Figure
     axes = figure.subplots()
     for name in y:
         ordinates = numbers_of(columns, name, table)
-        known = np.isfinite(abscissae) & np.isfinite(ordinates)
-        if not known.any():
+        is_finite = np.isfinite(abscissae) & np.isfinite(ordinates)
+        if not is_finite.any():
             raise AtlasError(f"{table} has no row with numbers in both {x} and {name}: choose other columns.")
-        is_ordered = bool((np.diff(abscissae[known]) > 0.0).all())
-        errors = numbers_of(columns, f"{name}_sigma", table)[known] if f"{name}_sigma" in columns else None
-        mark = "-" if is_ordered else "." if known.sum() <= MAX_DOTS else ","
-        axes.errorbar(abscissae[known], ordinates[known], errors, fmt=mark, label=name)
+        is_ordered = bool((np.diff(abscissae[is_finite]) > 0.0).all())
+        errors = numbers_of(columns, f"{name}_sigma", table)[is_finite] if f"{name}_sigma" in columns else None
+        mark = "-" if is_ordered else "." if is_finite.sum() <= MAX_DOTS else ","
+        axes.errorbar(abscissae[is_finite], ordinates[is_finite], errors, fmt=mark, label=name)
     axes.set_xlabel(labelled(x, units))
     axes.set_ylabel(", ".join(labelled(name, units) for name in y))
     if len(y) > 1:

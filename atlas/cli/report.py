@@ -27,8 +27,11 @@ def inputs_of(name: str) -> tuple[str, list[tuple[str, str]]]:
     from atlas.book.inputs import declared
 
     return f"Inputs of {name}, after --set, with their defaults", [
-        (key if one.default is None else f"{key}={one.default}", ", ".join(filter(None, (one.takes, one.help))))
-        for key, one in declared(find(name)).items()
+        (
+            key if declaration.default is None else f"{key}={declaration.default}",
+            ", ".join(filter(None, (declaration.takes, declaration.help))),
+        )
+        for key, declaration in declared(find(name)).items()
     ]
 
 

@@ -41,7 +41,7 @@ class Report:
     def _repr_html_(self) -> str:
         from atlas.book.several_bodies import value_of
 
-        rows = [(one["says"], value_of(one), one["reason"] or "") for one in self.card.values()]
+        rows = [(record["says"], value_of(record), record["reason"] or "") for record in self.card.values()]
         table = html_table(self.name, ("number", "value", "why none"), rows) if rows else ""
         links = " ".join(f'<a href="{escape(str(file))}">{escape(str(file))}</a>' for file in self.files)
         return f"{table}<p>{links}</p>"
@@ -94,11 +94,11 @@ def report(
     4.014179846308986
     """
     place = Path("build/report" if out is None else out)
-    given: dict[str, Any] = {"field": field, "omega": omega} | inputs
-    given = {key: value for key, value in given.items() if value is not None}
+    arguments: dict[str, Any] = {"field": field, "omega": omega} | inputs
+    arguments = {key: value for key, value in arguments.items() if value is not None}
     if name == NAME:
         words = [] if body is None else words_of_body(body)
-        for key, value in given.items():
+        for key, value in arguments.items():
             words += words_of(key, getattr(value, "exact_pair", value))
         request, _ = request_of(words)
         build, card = built(request, place, None)
@@ -108,8 +108,10 @@ def report(
         from atlas.book.inputs import text_of as text_of_input
 
         if body is not None:
-            given["body"] = body  # which is an input like any other
-        texts = {key: text_of_input([*value] if isinstance(value, tuple) else value) for key, value in given.items()}
+            arguments["body"] = body  # which is an input like any other
+        texts = {
+            key: text_of_input([*value] if isinstance(value, tuple) else value) for key, value in arguments.items()
+        }
         with bar(Path(name).stem) as tell:
             build = build_report(str(name), place, tell, inputs=texts)
         card, files = {}, (build.index, build.pdf)

@@ -41,22 +41,22 @@ def each(table: Path, out: Path, jobs: int | None, words: tuple[str, ...]) -> in
     if context.get_parameter_source("out") is not click.core.ParameterSource.COMMANDLINE:
         out /= table.stem
     rows, status = [*rows_of(table)], 0
-    made = list[Row]()
+    results = list[Row]()
     with bar(table.name) as tell:
         try:
-            for count, (line, own) in enumerate(rows):
+            for count, (line, own_words) in enumerate(rows):
                 tell(count, len(rows), f"line {line}")
-                row, ok = _built(line, [*shared, *own], Words(own).names, out, jobs)
-                made.append(row)
+                row, ok = _built(line, [*shared, *own_words], Words(own_words).names, out, jobs)
+                results.append(row)
                 status = status if ok else 1
         except KeyboardInterrupt:
-            made += [Row(line, own, fault="interrupted") for line, own in rows[len(made) :]]
+            results += [Row(line, own_words, fault="interrupted") for line, own_words in rows[len(results) :]]
             status = 128 + SIGINT
         tell(len(rows), len(rows), "index")
     command = shlex.join(["atlas", "report", NAME, *shared, "--each", str(table)])
-    sources = index_of(made, table.name, command)
+    sources = index_of(results, table.name, command)
     report = build("index", sources, out, jobs, ("single", "pdf"))
-    for row in made:
+    for row in results:
         if row.fault:
             click.echo(f"atlas: {table}, line {row.line}: {row.fault}", err=True)
     for place in (report.single, report.pdf, out / "index.csv"):
@@ -77,7 +77,7 @@ def _built(line: int, words: list[str], columns: Collection[str], out: Path, job
         request, _ = request_of(words)
         report, card = built(request, out, jobs)
     except AtlasError as error:
-        return Row(line, words, fault=" ".join(_in_column(one, columns) for one in error.sentences)), False
+        return Row(line, words, fault=" ".join(_in_column(sentence, columns) for sentence in error.sentences)), False
     return row_of(line, words, request, card), status_of(report) == 0
 
 

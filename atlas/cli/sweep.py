@@ -147,13 +147,13 @@ def swept(**options: Any) -> None:
     family, requested_values, axes = requested(options)
     listing = options["listing"]
     option_names = {name: option for name, (option, _) in _options(family).items()}
-    typed = {
+    typed_numbers = {
         name: _numbers(name, option_names.get(name, name), text)
         for name, text in requested_values.items() if isinstance(text, str)
     }  # fmt: skip
-    check_bare_numbers(options, ((name, option_names.get(name, name), numbers) for name, numbers in typed.items()))
+    check_bare_numbers(options, ((name, option_names.get(name, name), x) for name, x in typed_numbers.items()))
     parameters = {
-        name: _values(name, values, typed[name]) if name in typed else values
+        name: _values(name, values, typed_numbers[name]) if name in typed_numbers else values
         for name, values in requested_values.items()
     }
     columns, units = _listed(family, listing) if listing else ({}, set())
@@ -164,7 +164,7 @@ def swept(**options: Any) -> None:
     body.check_speeds(options, start if any(start) else None)
     if options["out"] is None:
         raise click.UsageError("--out is missing: name the file of the table, such as --out table.csv.")
-    has_units = bool(units) or any(x.unit for numbers in typed.values() for x in numbers)
+    has_units = bool(units) or any(x.unit for numbers in typed_numbers.values() for x in numbers)
     time = "s" if has_units else body.units_of(options).get("time", "time")
     plan = Plan.of(
         family, inputs, options["quantities"],
@@ -266,11 +266,11 @@ def _uncertain_body(options: dict[str, Any]) -> dict[str, Any]:
                                "principal moments; atlas motion carries those of a tensor.")  # fmt: skip
     from uncertainties import ufloat
 
-    found = UncertainAnswer.of(lambda moved: {name: float(x) for name, x in _body(moved)[0].items()}, options)
+    answer = UncertainAnswer.of(lambda shifted: {name: float(x) for name, x in _body(shifted)[0].items()}, options)
     units = [ufloat(0.0, 1.0) for _ in uncertain(options)]
     return {
-        name: sum((slope * unit for slope, unit in zip(found.spread.slopes[name,], units, strict=True)), x)
-        for name, x in found.answer.items()
+        name: sum((slope * unit for slope, unit in zip(answer.spread.slopes[name,], units, strict=True)), x)
+        for name, x in answer.answer.items()
     }
 
 
@@ -297,7 +297,7 @@ def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
     weighed = ("mass", "density") if options["shape"] is None else ()
     if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
         values |= zip(("B1", "B2", "B3")[not has_three :], map(_plain, body.chosen_field(options)), strict=True)
-    start = body.start_of(options, needed=False)
+    start = body.start_of(options, is_required=False)
     if start is not None:
         values |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
     return values | {name: float(x) for name, x in given(options, ["omega2"]).items()}, ""
@@ -318,7 +318,7 @@ def _options(family: str) -> dict[str, tuple[str, str]]:
 
     Where several families have a name, that of `family` counts.
     """
-    parameters = [p for one in (*FAMILIES, family) if one in FAMILIES for p in FAMILIES[one].parameters]
+    parameters = [p for key in (*FAMILIES, family) if key in FAMILIES for p in FAMILIES[key].parameters]
     return {name: (p.name, p.unit) for p in parameters for name in p.names} | {"t": ("times", TIME)}
 
 
@@ -342,8 +342,8 @@ def _numbers(name: str, option_name: str, text: str) -> tuple[Typed, ...]:
     """
     option = click.Option([f"--{option_name}"])  # which says the unit
     option.opts = [name]
-    typed = TypedRange.of(text)
-    words = text.split(",") if typed is None else typed[:2]
+    typed_range = TypedRange.of(text)
+    words = text.split(",") if typed_range is None else typed_range[:2]
     numbers = tuple(REAL.convert(x.strip(), option, click.get_current_context()) for x in words)
     check_units(name, numbers)
     return numbers
@@ -357,7 +357,7 @@ def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
     """
     from atlas.sweeps.plan import Range
 
-    if (typed := TypedRange.of(text)) is None:
+    if (typed_range := TypedRange.of(text)) is None:
         if not any(x.sigma for x in numbers):
             return [*map(float, numbers)]
         if len(numbers) > 1:
@@ -366,5 +366,5 @@ def _values(name: str, text: str, numbers: Sequence[Typed]) -> Any:
 
         return ufloat(float(numbers[0]), numbers[0].sigma)
     start, stop = map(float, numbers)
-    typed.check(start, stop)
-    return Range(start, stop, typed.length, log=typed.is_log).values
+    typed_range.check(start, stop)
+    return Range(start, stop, typed_range.length, log=typed_range.is_log).values

@@ -182,24 +182,25 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
 
     def _listed(self, word: str, param: click.Parameter, ctx: click.Context | None) -> Sequence[Typed]:
         """Return the numbers of START:STOP:COUNT[:log], ends included, as `Steps`; of a single number a tuple."""
-        if (typed := TypedRange.of(word)) is None:
+        if (typed_range := TypedRange.of(word)) is None:
             return (self._single(word, param, ctx),)
-        start, stop = (self._single(item, param, ctx) for item in typed[:2])
+        start, stop = (self._single(item, param, ctx) for item in typed_range[:2])
         check_units(param.opts[0], (start, stop))
-        typed.check(start, stop)
-        name, places = str(param.name), range(typed.length)
+        typed_range.check(start, stop)
+        name, places = str(param.name), range(typed_range.length)
         unit, last_place = str(WANTED[name]) if start.unit or stop.unit else "", places[-1]
         ends = start.exactly(), stop.exactly()
         denominator = math.lcm(*(end.denominator for end in ends)) * last_place
-        first, last = (int(end * denominator) for end in ends)
-        step = (last - first) // last_place  # whole, so that each place is one division, rounded once
+        first_numerator, last_numerator = (int(end * denominator) for end in ends)
+        # whole, so that each place is one division, rounded once
+        step = (last_numerator - first_numerator) // last_place
 
         def number(i: int) -> Typed:
-            if typed.is_log and i not in (0, last_place):
+            if typed_range.is_log and i not in (0, last_place):
                 low, high = math.log10(abs(start)), math.log10(abs(stop))
                 x = math.copysign(10.0 ** (low + (high - low) * i / last_place), start)
             else:
-                x = (first + i * step) / denominator
+                x = (first_numerator + i * step) / denominator
             return Typed(f"{x!r}{unit}", name, self.place) if unit else start.moved(x, text=repr(x))
 
         return Steps(places, number)

@@ -85,14 +85,14 @@ def check_bare_numbers(options: Mapping[str, Any], settings: Iterable[tuple[str,
     `options` are the command's, by name. A number 0 needs no unit. `settings` are further numbers: tuples of a name as
     typed, the name of the option with the same units, and the numbers.
     """
-    typed = ((f"--{name}", name, value) for name, value in options.items())
+    labelled = ((f"--{name}", name, value) for name, value in options.items())
     numbers = [
-        (label, option, x) for label, option, value in (*typed, *settings) if option in WANTED
+        (label, option, x) for label, option, value in (*labelled, *settings) if option in WANTED
         for x in parts_of(value) if isinstance(x, Typed) and x
     ]  # fmt: skip
     with_unit = [(option, x) for _, option, x in numbers if x.unit]
     for label, option, x in numbers:
-        alike = [y for other, y in with_unit if option == "angle" or WANTED[other] == WANTED[option]]
+        alike = [y for key, y in with_unit if option == "angle" or WANTED[key] == WANTED[option]]
         if alike and not x.unit and (option == "angle" or WANTED[option] in ("m", RATE)):
             raise click.UsageError(
                 f"{label}: {x.text} has no unit, and {alike[0].text} has one; give it one, such as "
@@ -202,7 +202,7 @@ class Command(click.Command):
         """
         words = Words(args)
         if help_names := words.names & {*ctx.help_option_names}:
-            ctx.obj = [*words.loose, *(x for one in words.options if one.name in help_names for x in one.values)]
+            ctx.obj = [*words.loose, *(x for flag in words.options if flag.name in help_names for x in flag.values)]
             return super().parse_args(ctx, [*help_names][:1])
         remaining_words = super().parse_args(ctx, args)
         options = {str(param.name): param for param in self.params}
@@ -248,7 +248,9 @@ class Reader:
 
     def __init__(self, ctx: click.Context, params: Sequence[click.Parameter]) -> None:
         self.ctx = ctx
-        self.known = {name: param for param in params for name in param.opts if isinstance(param, click.Option)}
+        self.options_by_name = {
+            name: param for param in params for name in param.opts if isinstance(param, click.Option)
+        }
         self.arguments = [param for param in params if isinstance(param, click.Argument)]
         self.has_settings = "settings" in {param.name for param in params}
 
@@ -261,15 +263,15 @@ class Reader:
         texts, order, loose = dict[str, Any](), list[click.Parameter](), list(words.loose)
         with augment_usage_errors(self.ctx):
             for option in words.options:
-                if option.name not in {*self.known, "--"}:
+                if option.name not in {*self.options_by_name, "--"}:
                     raise self._unknown(option.typed.partition("=")[0])
             for option in words.options:
                 if option.name == "--":
                     loose += option.values
                     continue
                 is_range = option.name == "--grid" and ":" in "".join(option.values)
-                param = self.known["--times" if is_range else option.name]
-                text, after = self._taken(option, param, words)
+                param = self.options_by_name["--times" if is_range else option.name]
+                text, after = self._read_value(option, param, words)
                 texts[str(param.name)] = [*texts.get(str(param.name), ()), *text] if param.multiple else text
                 order.append(param)
                 loose += after
@@ -285,7 +287,7 @@ class Reader:
                 )
         return texts, loose, order
 
-    def _taken(self, option: Option, param: click.Option, words: Words) -> tuple[Any, list[str]]:
+    def _read_value(self, option: Option, param: click.Option, words: Words) -> tuple[Any, list[str]]:
         """Return (value of an option as click's types convert it, words after the value).
 
         `words` are all that were typed. Numbers of any count stay in one text. Raises click.UsageError for an
@@ -305,8 +307,8 @@ class Reader:
             return option.values[0], option.values[1:]
         if param.type is REAL:
             return [" ".join(option.values)], []
-        parts = (([word] if param.name == "settings" else word.split(",")) for word in option.values)
-        return list(chain.from_iterable(parts)), []
+        word_lists = (([word] if param.name == "settings" else word.split(",")) for word in option.values)
+        return list(chain.from_iterable(word_lists)), []
 
     def _unknown(self, name: str) -> click.UsageError:
         """Return the error for an option that the command does not have; it says where the option's work is done.
@@ -320,8 +322,8 @@ class Reader:
             return click.UsageError(f"there is no option {name}; a parameter is given by --set {bare}=VALUE.")
         if bare in OTHERS:
             return click.UsageError(f"there is no option {name}: {OTHERS[bare]}.")
-        shown = [known for known, param in self.known.items() if not param.hidden]
-        return click.NoSuchOption(name, possibilities=get_close_matches(name, shown))
+        visible_names = [word for word, param in self.options_by_name.items() if not param.hidden]
+        return click.NoSuchOption(name, possibilities=get_close_matches(name, visible_names))
 
     def _vector(self, option: Option, param: click.Option, words_typed: Words) -> tuple[list[str], list[str]]:
         """Return (texts of the components of the option's vector, words after it).
@@ -343,7 +345,7 @@ class Reader:
                     "asymmetric with --set I1=0.8 and so on."
                 )
             components = [components[0], *components]
-        if param.name in ("field", "magnetic") and "--angle" in words_typed.names & self.known.keys():
+        if param.name in ("field", "magnetic") and "--angle" in words_typed.names & self.options_by_name.keys():
             if len(components) != 1:
                 raise click.UsageError(
                     f"with --angle, {option.name} is one number, the strength of the field, not {len(components)}."

@@ -29,7 +29,7 @@ FIGURE = "```{figure}"
 
 
 def built(
-    wanted: "Asked", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
+    request: "Asked", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
 ) -> "tuple[Built, dict[str, Any]]":
     """Write the report of a request, its card and its inputs into the folder `out`; return (`Built`, card).
 
@@ -40,9 +40,9 @@ def built(
     from atlas.book.card import ENTRIES
     from atlas.book.your_body import files_of, name_of
 
-    name, files = name_of(wanted), files_of(wanted)
+    name, files = name_of(request), files_of(request)
     record = json.loads(files[f"{name}.card.json"])
-    return build(name, files, out, jobs, formats), {one.key: record[one.key] for one in ENTRIES}
+    return build(name, files, out, jobs, formats), {entry.key: record[entry.key] for entry in ENTRIES}
 
 
 def build(name: str, sources: Mapping[str, str], out: Path, jobs: int | None, formats: Sequence[str]) -> "Built":
@@ -220,12 +220,12 @@ def make(request: "tuple[Asked, dict[str, Any]]") -> int:
     return told(*request, FORMATS)
 
 
-def told(wanted: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
+def told(request: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
     """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0.
 
     `options` are the command's, by name, of which folder, processes and --explain are used.
     """
-    report, _ = built(wanted, options["out"], options["jobs"], formats)
+    report, _ = built(request, options["out"], options["jobs"], formats)
     places = places_of(report)
     for place in [report.single, *places[1:]] if "single" in formats else places:
         click.echo(place)

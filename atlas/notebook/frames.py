@@ -39,20 +39,20 @@ def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> It
 
     NaN where a quantity has no value. Raises AtlasError for an unknown quantity.
     """
-    known = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
+    quantities = {name: swept.quantities[name] for q in swept.family.quantities for name in q.names}
     shape = getattr(subject, "shape", ())
     if not subject.made_by and len(subject.arguments) == len(swept.family.parameters):
         for p, value in zip(swept.family.parameters, subject.arguments.values(), strict=True):
             if value is not None:
-                parts = np.moveaxis(np.asarray(value), -1, 0) if p.last else value if p.columns else [value]
-                for name, component in zip(p.names, parts, strict=True):
+                components = np.moveaxis(np.asarray(value), -1, 0) if p.last else value if p.columns else [value]
+                for name, component in zip(p.names, components, strict=True):
                     yield name, np.broadcast_to(getattr(component, "ratio", component), shape).ravel()
-    for name in known if names is None else names:
-        if name not in known:
-            raise unknown("quantity", name, known, f"of a {type(subject).__name__}")
+    for name in quantities if names is None else names:
+        if name not in quantities:
+            raise unknown("quantity", name, quantities, f"of a {type(subject).__name__}")
         value = np.nan
         with suppress(DomainError):  # where the register says that there may be none
-            value = known[name].of(subject, {})
+            value = quantities[name].of(subject, {})
         yield name, np.broadcast_to(np.nan if value is None else value, shape).ravel()
 
 
@@ -65,22 +65,22 @@ def columns_at(subject: Shown, times: Any, names: Sequence[str] | None = None) -
     swept = FAMILIES[subject.family]
     if getattr(subject, "shape", ()):
         raise AtlasError(f"Rows by time are of one {type(subject).__name__}: make one with numbers in place of arrays.")
-    known = {name: s for s in swept.family.sampled for name in s.columns}
-    if not known:
+    functions = {name: s for s in swept.family.sampled for name in s.columns}
+    if not functions:
         raise AtlasError(f"A {type(subject).__name__} has nothing that depends on time.")
     t = np.ravel(real(times, "The time", TIME))
     for name in names or ():
-        if name not in known:
-            raise unknown("quantity", name, known, f"at a time of a {type(subject).__name__}")
-    wanted = tuple(known if names is None else names)
+        if name not in functions:
+            raise unknown("quantity", name, functions, f"at a time of a {type(subject).__name__}")
+    chosen_names = tuple(functions if names is None else names)
     columns = {
         s.name: s.method_of(subject)(t).reshape(t.size, len(s.columns))
         for s in swept.family.sampled
-        if {*s.columns} & {*wanted}
+        if {*s.columns} & {*chosen_names}
     }
     yield "t", t
-    for name in wanted:
-        yield name, columns[known[name].name][:, [*known[name].columns].index(name)]
+    for name in chosen_names:
+        yield name, columns[functions[name].name][:, [*functions[name].columns].index(name)]
 
 
 def trace(motion: Any, periods: float, stop: float | None, tolerance: float) -> tuple[FloatArray, FloatArray]:

@@ -61,21 +61,23 @@ def scene_of(subject: Shown, figure: str | None, parameters: dict[str, Any]) -> 
     without a picture, several objects, an unknown figure, and a parameter that the object fixes.
     """
     family, name = FAMILIES.get(subject.family), type(subject).__name__
-    known = family.figures if family else ("flight",) if isinstance(subject, Flight) else ()
-    if not known:
+    figures = family.figures if family else ("flight",) if isinstance(subject, Flight) else ()
+    if not figures:
         raise AtlasError(f"There is no picture of a {name} yet.")
     if getattr(subject, "shape", ()):
         raise AtlasError(f"A picture is of one {name}, not of several: make one with numbers in place of arrays.")
-    if figure is not None and figure not in known:
-        raise unknown("figure", figure, known, f"of {name}")
+    if figure is not None and figure not in figures:
+        raise unknown("figure", figure, figures, f"of {name}")
     if family is None:
         return _flight(subject, parameters)
-    recipe = recipes.load(figure or known[0])
-    own = _object_parameters(subject, family)
+    recipe = recipes.load(figure or figures[0])
+    fixed_parameters = _object_parameters(subject, family)
     for key in parameters:
-        if key in own:
+        if key in fixed_parameters:
             raise AtlasError(f"{key} is that of the {name}; make another one for another {key}.")
-    return recipe.scene(**{key: value for key, value in own.items() if key in recipe.parameters} | parameters)
+    return recipe.scene(
+        **{key: value for key, value in fixed_parameters.items() if key in recipe.parameters} | parameters
+    )
 
 
 def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
@@ -83,10 +85,12 @@ def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
 
     Raises AtlasError for another parameter.
     """
-    known = signature(flight.scene_of).parameters
+    parameter_names = signature(flight.scene_of).parameters
     for key in parameters:
-        if key not in known or key == "flight":
-            raise unknown("parameter", key, [name for name in known if name != "flight"], "of a picture of a Flight")
+        if key not in parameter_names or key == "flight":
+            raise unknown(
+                "parameter", key, [name for name in parameter_names if name != "flight"], "of a picture of a Flight"
+            )
     return flight.scene_of(subject, **parameters)
 
 

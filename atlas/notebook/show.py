@@ -36,9 +36,9 @@ def html(subject: Shown) -> str:
     lines = rows(subject)
     heads, *body = (_line(tag, cells) for tag, cells in [("th", [*SIDES]), *(("td", _cells(row)) for row in lines)])
     table = f"<table><thead>{heads}</thead><tbody>{''.join(body)}</tbody></table>" if lines else ""
-    beside = f"{table}{picture(subject)}"
+    content = f"{table}{picture(subject)}"
     head = f'<pre style="word-break:normal">{escape(repr(subject))}</pre>'
-    return f"{head}{f'{FLOW}{beside}</div>' if beside else ''}"
+    return f"{head}{f'{FLOW}{content}</div>' if content else ''}"
 
 
 def latex(subject: Shown) -> str | None:
@@ -109,9 +109,9 @@ def _line(tag: str, cells: Sequence[str]) -> str:
 
 
 def _cells(row: Row) -> list[str]:
-    says, name, value, unit, equation, certain = row
+    says, name, value, unit, equation, proof = row
     number = value.words() if isinstance(value, Number) else value
-    return [_html(cell) for cell in (says, name, number, "" if unit == "1" else unit, equation, certain)]
+    return [_html(cell) for cell in (says, name, number, "" if unit == "1" else unit, equation, proof)]
 
 
 def _html(markdown: str) -> str:

@@ -112,8 +112,8 @@ def source(name: str) -> Path:
         return file.absolute()
     file = folder("figures") / f"{name}.py"
     if name.startswith("_") or file.parent != folder("figures") or not file.is_file():
-        near = " or ".join(map(repr, get_close_matches(name, names(), 3, 0.4)))
-        hint = f" (did you mean {near}?)" if near else ""
+        suggestions = " or ".join(map(repr, get_close_matches(name, names(), 3, 0.4)))
+        hint = f" (did you mean {suggestions}?)" if suggestions else ""
         raise AtlasError(f"there is no figure {name!r}{hint}; `atlas list figures` names all.")
     return file
 

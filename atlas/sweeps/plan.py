@@ -107,8 +107,8 @@ class Plan:
         `slopes` maps a parameter to its changes over one standard deviation of each independent input.
         """
         columns, is_asked = self.rows(0, 1), [name in self.quantities for name in self._names]
-        asked = (name for name, wanted in zip(self.names, is_asked, strict=True) if wanted)
-        return replace(self, slopes=slopes, deviating=tuple(x for x in asked if columns[x].dtype.kind == "f"))
+        requested = (name for name, is_requested in zip(self.names, is_asked, strict=True) if is_requested)
+        return replace(self, slopes=slopes, deviating=tuple(x for x in requested if columns[x].dtype.kind == "f"))
 
     @property
     def count(self) -> int:
@@ -241,8 +241,8 @@ class Plan:
 
         def moved(steps: Sequence[float]) -> Columns:
             changes = {name: np.dot(slopes, steps) for name, slopes in self.slopes.items()}
-            found = self._quantities({name: x + changes.get(name, 0.0) for name, x in parameters.items()}, {})
-            return {name: found[name] for name in own_names}
+            columns = self._quantities({name: x + changes.get(name, 0.0) for name, x in parameters.items()}, {})
+            return {name: columns[name] for name in own_names}
 
         count = len(next(iter(self.slopes.values())))
         sigma = spread(moved([0.0] * count), moved, count).sigma

@@ -168,7 +168,7 @@ def write_plan(
         try:
             names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
             new_names: Mapping[str, str] = {}
-            if table.whole is None:
+            if table.table_folder is None:
                 new_names = write(Path(table.place), plan, [table.path(name) for name in names])
             else:
                 table.move(names)

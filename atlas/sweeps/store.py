@@ -145,7 +145,7 @@ class Table:
 
     Made from the path or address `out` and the digest `key` of its sweep. `place` is that path or address, `ending`
     the suffix of its parts, `parts` their folder until the table is complete, `lock` the path of its lock file.
-    `whole` is the folder of a table made of files, else None. Raises AtlasError for an unknown format, one that
+    `table_folder` is the folder of a table made of files, else None. Raises AtlasError for an unknown format, one that
     cannot be written here, and an address out of reach.
     """
 
@@ -153,20 +153,20 @@ class Table:
         text = os.fspath(out)
         remote, path = "://" in text, Path(text)
         self.key, self.mark = key, ""
-        self.whole: Folder | None = None
+        self.table_folder: Folder | None = None
         self.place: Path | str = text if remote else path
         if remote and not all(part.strip("/") for part in text.split("://")):
             raise AtlasError(f"{text} is no address: name its protocol and its path, as s3://bucket/table.parquet.")
         if remote or text.endswith(("/", os.sep)) or path.is_dir():
             if path.suffix not in {"", ".parquet"}:
                 raise AtlasError(f"A table in a folder is of Parquet, as table.parquet/, not {text}.")
-            self.whole = Folder(text.rstrip("/") if remote else str(path.absolute()))
-            self.whole.names()  # an address out of reach is refused before libraries are installed for it
+            self.table_folder = Folder(text.rstrip("/") if remote else str(path.absolute()))
+            self.table_folder.names()  # an address out of reach is refused before libraries are installed for it
             check_format(Path("table.parquet"))
         else:
             check_format(path)
-        address = self.whole.address if self.whole else str(path.absolute())
-        self.ending = "parquet" if self.whole else path.suffix[1:]
+        address = self.table_folder.address if self.table_folder else str(path.absolute())
+        self.ending = "parquet" if self.table_folder else path.suffix[1:]
         self.parts = Folder(f"{address}.parts")
         self.lock = path.absolute().with_name(f".{path.name}.lock")
         if remote:  # it holds for the sweeps of this machine
@@ -190,7 +190,7 @@ class Table:
         """
         parts_by_rows: dict[Span, str] = {}
         end = 0
-        places = {name: folder for folder in (self.whole, self.parts) if folder for name in folder.names()}
+        places = {name: folder for folder in (self.table_folder, self.parts) if folder for name in folder.names()}
         for name in sorted(places):
             span = span_of(name)
             if f"-{self.key}-" in name and name.endswith(self.ending) and span[0] >= end and places[name].holds(name):
@@ -203,10 +203,10 @@ class Table:
 
         A table in one file is left as it is.
         """
-        if self.whole is not None:
-            self.whole.clear(self.whole.names() - {*names})
+        if self.table_folder is not None:
+            self.table_folder.clear(self.table_folder.names() - {*names})
             for name in sorted(self.parts.names() & {*names}):
-                self.parts.move(name, self.whole)
+                self.parts.move(name, self.table_folder)
 
     def seen(self) -> bool:
         """Return whether this process sees the folder that the sweep sees: the lock file has the same text.

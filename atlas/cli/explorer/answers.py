@@ -27,17 +27,17 @@ DRAWING = Lock()
 FILES = {"pdf": "application/pdf", "svg": "image/svg+xml", "png": "image/png"}
 
 
-def values_of(subject: Subject, typed: Mapping[str, str]) -> dict[str, float]:
-    """Return the values of all sliders by name: `typed` texts by name as floats, else the sliders' starts.
+def values_of(subject: Subject, texts: Mapping[str, str]) -> dict[str, float]:
+    """Return the values of all sliders by name: those in `texts` as floats, else the sliders' starts.
 
     Raises AtlasError for a name that has no slider, and for a text that is no finite number. `subject` is a family
     or a recipe.
     """
-    known = {slider.name: slider for slider in subject.sliders}
-    values = {name: slider.start for name, slider in known.items()}
-    for name, text in typed.items():
-        if name not in known:
-            raise AtlasError(f"{subject.name} has no parameter {name!r}; it has {', '.join(known)}.")
+    sliders = {slider.name: slider for slider in subject.sliders}
+    values = {name: slider.start for name, slider in sliders.items()}
+    for name, text in texts.items():
+        if name not in sliders:
+            raise AtlasError(f"{subject.name} has no parameter {name!r}; it has {', '.join(sliders)}.")
         try:
             values[name] = float(text)
         except ValueError:
@@ -98,15 +98,15 @@ def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) ->
     for q in family.quantities:
         try:
             if balls is None and q.slow:
-                text, certain = "", "when the sliders rest"
+                text, certainty = "", "when the sliders rest"
             elif balls is not None and _has(balls, q):
-                text, certain = _certified(q, balls)
+                text, certainty = _certified(q, balls)
             else:
-                text, certain = _double(q, kernels, family.promises.get(q.checked, 0.0))
+                text, certainty = _double(q, kernels, family.promises.get(q.checked, 0.0))
         except DomainError as reason:
-            text, certain = "none", str(reason)
+            text, certainty = "none", str(reason)
         says, _ = q.cases.get(case, (q.says, q.equation))
-        yield {"name": letters(q.symbol or q.name), "says": says, "value": text, "sure": certain, "unit": q.unit}
+        yield {"name": letters(q.symbol or q.name), "says": says, "value": text, "sure": certainty, "unit": q.unit}
 
 
 def _has(balls: Any, q: Quantity) -> bool:

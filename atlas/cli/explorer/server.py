@@ -83,7 +83,7 @@ class Explorer(ThreadingHTTPServer):
 
     def admits(self, ticket: str) -> bool:
         """Return whether a text is a ticket that was issued and not used, and invalidate it."""
-        used = {one for one in [*self.tickets] if _same(one, ticket)}
+        used = {issued for issued in [*self.tickets] if _same(issued, ticket)}
         self.tickets -= used
         return bool(used)
 
@@ -115,7 +115,7 @@ class Handler(BaseHTTPRequestHandler):
         except ValueError:  # as `http://[::1/`
             self._send(HTTPStatus.BAD_REQUEST, b"this is no address", "text/plain")
             return
-        _, folder, *rest = [*url.path.split("/"), ""]
+        _, folder, *segments = [*url.path.split("/"), ""]
         if refused := self._refused(folder):
             self._send(HTTPStatus.FORBIDDEN, refused.encode(), "text/plain")
             return
@@ -126,7 +126,7 @@ class Handler(BaseHTTPRequestHandler):
             self._send(HTTPStatus.OK, page.encode(), "text/html", {"Set-Cookie": cookie})
             return
         try:
-            content = self._content("/".join(rest).rstrip("/"), dict(parse_qsl(url.query)))
+            content = self._content("/".join(segments).rstrip("/"), dict(parse_qsl(url.query)))
         except AtlasError as error:
             content = json.dumps({"error": str(error)}).encode(), JSON
         except OSError as error:  # as on a full disk
@@ -162,11 +162,11 @@ class Handler(BaseHTTPRequestHandler):
         answer = ANSWERS.get(place)
         return answer(self.server, query) if answer else None
 
-    def _send(self, status: HTTPStatus, body: bytes, kind: str, more: Mapping[str, str] = {}) -> None:
+    def _send(self, status: HTTPStatus, body: bytes, kind: str, headers: Mapping[str, str] = {}) -> None:
         self.send_response(status)
         charset = "; charset=utf-8" if kind.startswith("text/") else ""
         described = {"Content-Type": kind + charset, "Content-Length": str(len(body))}
-        for name, value in {**HEADERS, **described, **more}.items():
+        for name, value in {**HEADERS, **described, **headers}.items():
             self.send_header(name, value)
         self.end_headers()
         self.wfile.write(body)
@@ -175,9 +175,9 @@ class Handler(BaseHTTPRequestHandler):
         """Log nothing: an address in the terminal may be one that opens the explorer."""
 
 
-def _same(one: str, other: str) -> bool:
+def _same(a: str, b: str) -> bool:
     """Return whether two texts are equal, compared in constant time."""
-    return hmac.compare_digest(one.encode(), other.encode())
+    return hmac.compare_digest(a.encode(), b.encode())
 
 
 def _requested_subject(server: Explorer, query: dict[str, str]) -> Subject:

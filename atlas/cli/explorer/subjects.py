@@ -48,11 +48,11 @@ class OfFamily:
 
         A parameter without a slider has the value that stands for it when left out.
         """
-        known: dict[str, Any] = {}
+        arguments: dict[str, Any] = {}
         for p in self.family.parameters:
             components = tuple(values[name] if p.default else p.omitted for name in p.names)
-            known[p.name] = components if p.columns else components[0]
-        return known
+            arguments[p.name] = components if p.columns else components[0]
+        return arguments
 
     def kernels(self, values: Mapping[str, float]) -> Any:
         """Return the motion or surface in doubles at the sliders' values by name; the last one is cached."""
@@ -130,10 +130,10 @@ class OfRecipe:
         """Return the parameters that have sliders, by name, from the sliders' values; integers stay integers."""
         parameters: dict[str, Any] = {}
         for key, default in self.recipe.parameters.items():
-            parts = default if isinstance(default, tuple) else (default,)
+            defaults = default if isinstance(default, tuple) else (default,)
             names = [slider.name for slider in self._slider(key, default)]
             if names:
-                components = tuple(type(x)(values[name]) for name, x in zip(names, parts, strict=True))
+                components = tuple(type(x)(values[name]) for name, x in zip(names, defaults, strict=True))
                 parameters[key] = components if isinstance(default, tuple) else components[0]
         return parameters
 

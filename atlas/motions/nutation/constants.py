@@ -151,7 +151,7 @@ class CayleyKlein:
         rounder = np.array([EVEN, EVEN, ROUNDER])[:, None] if hyperbolic else EVEN
         phases = Phases(self.frequencies, self.origins, rounder)
         if hyperbolic or (self.swing and self.swing.is_large):
-            phases.near = -1.0
+            phases.max_near_time = -1.0
         return phases
 
 

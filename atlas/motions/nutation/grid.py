@@ -94,7 +94,9 @@ def moments(phases: Phases, start: float, step: float, index: FloatArray) -> tup
         or -start_time / span > NEAR_ZERO_TIME < -stop_time / span
     )
     if not (
-        abs(start) <= span <= phases.near and digit > MIN_TIME_DIGIT and (away or abs(step) > 2 * NEAR_ZERO_TIME * span)
+        abs(start) <= span <= phases.max_near_time
+        and digit > MIN_TIME_DIGIT
+        and (away or abs(step) > 2 * NEAR_ZERO_TIME * span)
     ):
         t = DoubleDouble(np.float64(start)) + DoubleDouble(index) * DoubleDouble(np.float64(step))
         return t.hi, t.low

@@ -98,13 +98,13 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
         cost += np.concatenate([_covers(group, tag.extent, ink, weights, window) for group in groups])
         best = np.argsort(cost, kind="stable")[:_KEPT]
         candidates, cost = candidates[best], cost[best]
-        own, named = owners == tag.owner, owners != NOBODY
-        if own.any():
-            cost += _doubt(candidates, tag.extent, ink[named], own[named], _FAR)
-        if not own.any() or MARK in weights[own]:
-            far = 1.0 + float(np.hypot(*tag.offset))
+        is_own, named = owners == tag.owner, owners != NOBODY
+        if is_own.any():
+            cost += _doubt(candidates, tag.extent, ink[named], is_own[named], _FAR)
+        if not is_own.any() or MARK in weights[is_own]:
+            max_gap = 1.0 + float(np.hypot(*tag.offset))
             cost += _doubt(
-                candidates, tag.extent, marks, np.isclose(marks, tag.anchor, rtol=0.0, atol=1e-6).all(axis=1), far
+                candidates, tag.extent, marks, np.isclose(marks, tag.anchor, rtol=0.0, atol=1e-6).all(axis=1), max_gap
             )
         choices[i] = candidates, cost
     for _ in range(2):
@@ -117,9 +117,9 @@ def place(tags: Sequence[Tag], inks: Iterable[Ink], window: tuple[float, float, 
 
 
 def _doubt(
-    centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_], far: float
+    centres: FloatArray, extent: tuple[float, float], ink: FloatArray, owned: NDArray[np.bool_], max_gap: float
 ) -> FloatArray:
-    """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly the nearest, or farther than `far`.
+    """Return the cost (N,) of centres (N, 2) of a text whose own ink is not clearly nearest, or beyond `max_gap`.
 
     `extent` is the text's (width, height); `owned` (M,) is the mask of the points `ink` (M, 2) that are its own;
     lengths are in printer's points. The cost is 0 if all or none of the points are its own.
@@ -129,7 +129,7 @@ def _doubt(
     half = 0.5 * np.array(extent)
     own_gap, other_gap = (_gap(centres, half, ink[mask]) for mask in (owned, ~owned))
     return _DOUBT * np.clip(1.0 - (other_gap + 1.0) / (own_gap + 4.0), 0.0, 1.0) + _ELSEWHERE * np.maximum(
-        own_gap - far, 0.0
+        own_gap - max_gap, 0.0
     )
 
 

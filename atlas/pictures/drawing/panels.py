@@ -51,15 +51,15 @@ Hold: TypeAlias = Callable[[int, tuple[float, float]], Placement]
 class SceneFigure(Figure):
     """A Matplotlib figure saved with the font settings for which it was made, whatever the current settings.
 
-    `kept` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, as journals require, unless the style says
-    otherwise; for a target ``savefig.dpi`` too.
+    `saved_settings` holds ``pdf.fonttype`` and ``ps.fonttype``: 42, TrueType, as journals require, unless the style
+    says otherwise; for a target ``savefig.dpi`` too.
     """
 
-    kept: Mapping[str, Any] = MappingProxyType({})
+    saved_settings: Mapping[str, Any] = MappingProxyType({})
 
     def savefig(self, *args: Any, **options: Any) -> None:
-        """Write the figure as `Figure.savefig` does, with the settings in `kept`."""
-        with mpl.rc_context(dict(self.kept)):
+        """Write the figure as `Figure.savefig` does, with `saved_settings`."""
+        with mpl.rc_context(dict(self.saved_settings)):
             super().savefig(*args, **options)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
@@ -138,7 +138,7 @@ def _drawing(
     with context(style, target):
         figure, panels = laid_out(scene, figure, boxes)
         if target and isinstance(figure, SceneFigure):
-            figure.kept = {**figure.kept, "savefig.dpi": target.dpi}
+            figure.saved_settings = {**figure.saved_settings, "savefig.dpi": target.dpi}
         for number, (axes, panel) in enumerate(panels, 1):
             if isinstance(panel, Space) and shaded:
                 draw_shaded(axes, panel)
@@ -193,7 +193,7 @@ def laid_out(
     """
     if figure is None:
         figure = SceneFigure([length / _INCH for length in scene.size])
-        figure.kept = {name: mpl.rcParams[name] for name in _KEPT}
+        figure.saved_settings = {name: mpl.rcParams[name] for name in _KEPT}
     panels = [
         (figure.add_subplot(cell), panel) for cell, panel in zip(_cells(scene, figure), scene.panels, strict=True)
     ]
@@ -228,9 +228,9 @@ def _framed(scene: Scene) -> bool:
 
 def _cells(scene: Scene, figure: Figure) -> list[SubplotSpec]:
     """Return the grid cells for the panels of a scene in the figure, row by row."""
-    full = {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
+    full_edges = {"left": 0.0, "right": 1.0, "bottom": 0.0, "top": 1.0, "wspace": 0.0, "hspace": 0.0}
     rows = -(-len(scene.panels) // scene.columns)
-    edges = {} if _framed(scene) else full
+    edges = {} if _framed(scene) else full_edges
     grid = figure.add_gridspec(rows, scene.columns, height_ratios=scene.rows or None, **edges)
     return [grid[divmod(k, scene.columns)] for k in range(len(scene.panels))]
 
