@@ -136,9 +136,9 @@ def rates(letter: str, tops: list[TopMotion], unit: str) -> Plane:
         points = np.stack([np.degrees(angles), rate], axis=1)
         layers += [Curve(points, "main"), Label(points[int(np.argmax(angles))], name, offset=(5.0, 0.0))]
     ends = np.array([layer.points[[0, -1], 0] for layer in layers if isinstance(layer, Curve)])
-    still = Curve(np.array([[ends.min(), 0.0], [ends.max(), 0.0]]), "reference")
+    zero_line = Curve(np.array([[ends.min(), 0.0], [ends.max(), 0.0]]), "reference")
     labels = r"angle with $\mathbf{n}$ (degrees)", f"rate (1/{unit})"
-    return Plane((still, *layers), *labels, title=f"({letter}) rate of precession")
+    return Plane((zero_line, *layers), *labels, title=f"({letter}) rate of precession")
 
 
 def plane(letter: str, tops: list[TopMotion], unit: str) -> Plane:

@@ -44,10 +44,10 @@ def scene(
     ]
     panels: list[Plane] = []
     for name, top in zip(top_names, tops, strict=True):
-        whole = panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit)
-        small = [layer for layer in whole.layers if isinstance(layer, Label) and layer.role == "unstable_line"]
-        kept = tuple(layer for layer in whole.layers if layer not in small)  # the swallowtail has room for the rest
-        panels += [replace(whole, layers=kept), *swallowtail(whole, "abcdef"[len(panels) + 1])]
+        diagram = panel(f"({'abcdef'[len(panels)]}) {name}", *top, M3, reach, unit)
+        small = [layer for layer in diagram.layers if isinstance(layer, Label) and layer.role == "unstable_line"]
+        layers = tuple(layer for layer in diagram.layers if layer not in small)  # the swallowtail has room for the rest
+        panels += [replace(diagram, layers=layers), *swallowtail(diagram, "abcdef"[len(panels) + 1])]
     same = f", $b={tex(b[0])}$" if alike else ""
     drawn_roles = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
     stability_words = "stable (solid) or unstable (dashed)" if "unstable_line" in drawn_roles else "all stable (solid)"

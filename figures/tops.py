@@ -82,21 +82,21 @@ def cause(place: int, panel: Space) -> list[Layer]:
     """
     right, up, toward = frame(panel)
 
-    def at(x: float, y: float) -> FloatArray:
+    def point(x: float, y: float) -> FloatArray:
         return np.asarray(1.5 * toward + x * right + (y - 0.55) * up)
 
     corners = ((-0.17, -0.2), (0.17, -0.2), (0.17, 0.2), (-0.17, 0.2), (-0.17, -0.2))
-    body = Curve(np.array([at(x, y) for x, y in corners]), "silhouette")
+    body = Curve(np.array([point(x, y) for x, y in corners]), "silhouette")
     if place == 2:
-        return [body, Arrow(at(0.0, 0.0), at(0.0, -0.42), "direction", "")]
+        return [body, Arrow(point(0.0, 0.0), point(0.0, -0.42), "direction", "")]
     if place == 3:
-        return [body, Arrow(at(0.0, -0.16), at(0.0, 0.42), "body_axis", "")]
+        return [body, Arrow(point(0.0, -0.16), point(0.0, 0.42), "body_axis", "")]
     aside = 0.085 if place == 0 else 0.27
     charges = [(x, y) for x in (-aside, aside) for y in (-0.1, 0.1)]
     arms = ((0.05, 0.0), (0.0, 0.05))
     return [
         body,
-        *(Curve(np.array([at(x - h, y - v), at(x + h, y + v)]), "field") for x, y in charges for h, v in arms),
+        *(Curve(np.array([point(x - h, y - v), point(x + h, y + v)]), "field") for x, y in charges for h, v in arms),
     ]
 
 

@@ -113,8 +113,8 @@ def exact_numbers(x: Any) -> Any:
     """
     if not x.ndim:
         return exact_number(x[()])
-    numbers = [exact_number(one) for one in x.ravel()]
-    words = np.reshape([(float(one), float(low_word(one))) for one in numbers], (*x.shape, 2))
+    numbers = [exact_number(element) for element in x.ravel()]
+    words = np.reshape([(float(number), float(low_word(number))) for number in numbers], (*x.shape, 2))
     return Given(words[..., 0], words[..., 1], 2.0**-104, x.__getitem__) if words[..., 1].any() else words[..., 0]
 
 

@@ -109,11 +109,11 @@ def pi_like(x: Number) -> Number:
     return arb.pi() if isinstance(x, fmpq | arb) else x.pi
 
 
-def select(x: Number, positive: Number, other: Number) -> Number:
-    """Return ``positive`` if x > 0, ``other`` otherwise; element by element for `DoubleDouble`."""
+def select(x: Number, positive: Number, alternative: Number) -> Number:
+    """Return ``positive`` if x > 0, ``alternative`` otherwise; element by element for `DoubleDouble`."""
     if isinstance(x, fmpq | arb):
-        return positive if x > 0 else other
-    return x.select(positive, other)
+        return positive if x > 0 else alternative
+    return x.select(positive, alternative)
 
 
 def dot(a: Vector, b: Vector) -> Number:

@@ -171,9 +171,9 @@ class Phases:
             self.check(np.array([t]))
         p, q = t.as_integer_ratio()
         for turns, after, start in self._turns_of_integers:
-            known = after + q.bit_length() - 1
-            digits = max(known, SCALAR_BITS) if start else known
-            yield (turns * p << digits - known) + (start << digits - SCALAR_BITS if start else 0), digits
+            exact_digits = after + q.bit_length() - 1
+            digits = max(exact_digits, SCALAR_BITS) if start else exact_digits
+            yield (turns * p << digits - exact_digits) + (start << digits - SCALAR_BITS if start else 0), digits
 
     @cached_property
     def radians(self) -> FloatArray:

@@ -39,23 +39,23 @@ MAX_LOST_PHASE = 2.0**-55
 class Frequencies:
     """Frequencies in half turns per unit of time of m motions, n each.
 
-    `words` (2, n, m) are P0 and P1, whose sum is the frequency; `lack` (n, m) bounds its error. `exact(i)` returns
+    `words` (2, n, m) are P0 and P1, whose sum is the frequency; `errors` (n, m) bound its error. `exact(i)` returns
     the n frequencies of the i-th motion in rad/time, exact numbers.
     """
 
     words: FloatArray
-    lack: FloatArray
+    errors: FloatArray
     exact: Callable[[Any], Sequence[Number]]
 
     def at(self, index: Any, t: FloatArray) -> FloatArray:
         """Return the words (2, n, m) of the frequencies of motions ``index``, accurate enough for their times t (m,).
 
-        They are computed anew from `exact` where `lack` times |t| exceeds MAX_LOST_PHASE. Raises AtlasError if a
+        They are computed anew from `exact` where `errors` times |t| exceeds MAX_LOST_PHASE. Raises AtlasError if a
         phase is beyond MAX_PHASE.
         """
         words = self.words[..., index].copy()
         with np.errstate(over="ignore", invalid="ignore"):
-            doubtful = np.flatnonzero(~(self.lack[:, index] * abs(t) <= MAX_LOST_PHASE).all(axis=0))
+            doubtful = np.flatnonzero(~(self.errors[:, index] * abs(t) <= MAX_LOST_PHASE).all(axis=0))
             motions = np.arange(self.words.shape[2])[index]
             for i in doubtful.tolist():
                 words[:, :, i] = np.transpose([_words(f) for f in self.exact(motions[i])])
@@ -82,10 +82,10 @@ def _words(frequency: Number) -> list[float]:
 
 
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
-    """Return (`words`, `lack`) of `Frequencies`, (2, 2, m) and (2, m), for inputs that broadcast to m motions.
+    """Return (`words`, `errors`) of `Frequencies`, (2, 2, m) and (2, m), for inputs that broadcast to m motions.
 
     ``formula`` returns two frequencies in rad/time; the inputs ``unit`` are themselves frequencies. Where inputs
-    are out of range, `lack` is NaN.
+    are out of range, `errors` is NaN.
     """
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     words, errors = list[Any](), list[Any]()

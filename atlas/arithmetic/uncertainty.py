@@ -83,15 +83,17 @@ def spread(
     began = process_time()
     terms = [_terms(answer, direction, numbers) for direction in directions + together]
     seconds = (process_time() - began) / (4 * len(terms))
-    alone = terms[:count]
-    slopes = {key: [x.line.get(key, 0.0) for x in alone] for key in numbers}
+    single_terms = terms[:count]
+    slopes = {key: [x.line.get(key, 0.0) for x in single_terms] for key in numbers}
     sigma = {key: math.hypot(*slopes[key]) for key in numbers}
-    bent = {
-        key: math.hypot(*(x.second.get(key, 0.0) for x in terms), *(x.third.get(key, 0.0) for x in alone))
+    curved_sigma = {
+        key: math.hypot(*(x.second.get(key, 0.0) for x in terms), *(x.third.get(key, 0.0) for x in single_terms))
         for key in numbers
     }
     curved = {
-        key for key in numbers if abs(bent[key] - sigma[key]) > MAX_CURVATURE * sigma[key] + ROUNDING * sizes[key]
+        key
+        for key in numbers
+        if abs(curved_sigma[key] - sigma[key]) > MAX_CURVATURE * sigma[key] + ROUNDING * sizes[key]
     }
     curved |= {key for key in numbers if not all(key in x.line for x in terms)}
     ended = {key for x in terms for key in x.ended if sigma[key] > ROUNDING * sizes[key]} - curved
@@ -144,8 +146,8 @@ def _terms(answer: Callable[[Steps], Any], direction: Steps, middle: Numbers) ->
             [numbers[key] - x for numbers in side] for side in sides if all(key in numbers for numbers in side)
         ]
         if len(differences) == 2:
-            (near_difference, after), (far, before) = differences
-            terms.line[key] = (near_difference - far) / (2 * DERIVATIVE_STEP)
+            (near_difference, after), (opposite_difference, before) = differences
+            terms.line[key] = (near_difference - opposite_difference) / (2 * DERIVATIVE_STEP)
             terms.second[key] = (after + before) / 2**0.5
             terms.third[key] = 1.5 * (after - before) - 2 * terms.line[key]
         elif differences:  # of the parabola through three points; the sign follows the side
@@ -204,9 +206,9 @@ def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, se
     ``draws`` are the values by place, of ``size`` draws. A sentence names the number of draws, and the largest
     number of draws without a value.
     """
-    lost = {key for key, values in draws.items() if _is_lost(values, size)}
+    lost_keys = {key for key, values in draws.items() if _is_lost(values, size)}
     sentences = {}
-    for keys, text in ((draws.keys() - lost, BY_SAMPLING), (lost, BY_NEITHER)):
+    for keys, text in ((draws.keys() - lost_keys, BY_SAMPLING), (lost_keys, BY_NEITHER)):
         most = size - min((len(draws[key]) for key in keys), default=size)
         sentences[text.format(f"{size} draws" + f", {most} of them without a value" * bool(most))] = keys
     return sentences
@@ -342,7 +344,7 @@ class UncertainObject:
         self.inputs = [*arguments, *named.values()]
         self._inputs = {id(x): _with_derivatives(x) for x in _uncertain(self.inputs)}
         self._variables = _variables(self._inputs.values())
-        self._moved = dict[tuple[float, ...], Any]()
+        self._objects = dict[tuple[float, ...], Any]()
         self.nominal_value = self._moved_object((0.0,) * len(self._variables))
 
     def __dir__(self) -> list[str]:
@@ -362,8 +364,10 @@ class UncertainObject:
             raise AttributeError(name)
         value = getattr(self.nominal_value, name)
         if callable(value):
-            return lambda *args, **how: self._uncertain_quantity(name, lambda moved: getattr(moved, name)(*args, **how))
-        return self._uncertain_quantity(name, lambda moved: getattr(moved, name))
+            return lambda *args, **how: self._uncertain_quantity(
+                name, lambda instance: getattr(instance, name)(*args, **how)
+            )
+        return self._uncertain_quantity(name, lambda instance: getattr(instance, name))
 
     @cached_property
     def _units(self) -> list[Any]:
@@ -381,19 +385,19 @@ class UncertainObject:
         The first objects, as many as derivatives need, are kept.
         """
         key = tuple(steps)
-        if key not in self._moved:
+        if key not in self._objects:
             by_variable = dict(zip(self._variables, steps, strict=True))
 
             def value(x: Any) -> float:
-                own = self._inputs[id(x)]
-                changes = (d * v.std_dev * by_variable.get(v, 0.0) for v, d in own.derivatives.items())
-                return float(own.nominal_value + math.fsum(changes))
+                uncertain_input = self._inputs[id(x)]
+                changes = (d * v.std_dev * by_variable.get(v, 0.0) for v, d in uncertain_input.derivatives.items())
+                return float(uncertain_input.nominal_value + math.fsum(changes))
 
-            moved = self.made_of(value)
-            if len(self._moved) > 4 * len(self._variables) + 4:
-                return moved
-            self._moved[key] = moved
-        return self._moved[key]
+            instance = self.made_of(value)
+            if len(self._objects) > 4 * len(self._variables) + 4:
+                return instance
+            self._objects[key] = instance
+        return self._objects[key]
 
     def _uncertain_quantity(self, name: str, get: Callable[[Any], Any]) -> Any:
         """Return a quantity of the object with its standard deviations, a `ufloat` or an object array of them.
@@ -415,25 +419,25 @@ class UncertainObject:
             values = np.asarray(values)
             return {"samples": [{name: row} for row in values.reshape(-1, *values.shape[-1:] or (1,))]}
 
-        found = spread(rows(nominal), lambda steps: rows(get(self._moved_object(steps))), len(self._variables))
-        for note in found.notes:
+        deviations = spread(rows(nominal), lambda steps: rows(get(self._moved_object(steps))), len(self._variables))
+        for note in deviations.notes:
             warnings.warn(note, AtlasWarning, stacklevel=3)
-        number = partial(self._number, found)
+        number = partial(self._number, deviations)
         entries = np.empty(array.size, dtype=object)
         entries[:] = [x for sample in mapped(rows(nominal), number)["samples"] for x in sample[name]]
         return entries.reshape(array.shape) if array.ndim else entries[0]
 
-    def _number(self, found: Spread, value: float, place: Place) -> Any:
+    def _number(self, deviations: Spread, value: float, place: Place) -> Any:
         """Return a number as a `ufloat`: the sum of its first-order terms, or independent where it is sampled.
 
-        ``place`` is its place in ``found``. An unknown or infinite deviation becomes NaN.
+        ``place`` is its place in ``deviations``. An unknown or infinite deviation becomes NaN.
         """
         from uncertainties import ufloat
 
-        sigma = found.sigma.get(place, math.nan)
-        if place in found.sampled or not math.isfinite(sigma):
+        sigma = deviations.sigma.get(place, math.nan)
+        if place in deviations.sampled or not math.isfinite(sigma):
             return ufloat(value, sigma if math.isfinite(sigma) else math.nan)
-        slopes = found.slopes[place] if sigma else [0.0] * len(self._units)
+        slopes = deviations.slopes[place] if sigma else [0.0] * len(self._units)
         return sum((slope * unit for slope, unit in zip(slopes, self._units, strict=True)), value + 0 * self._units[0])
 
 
@@ -461,12 +465,12 @@ def _carrying(constructor: Callable[..., Any]) -> Callable[..., Any]:
     """Return a class method's function changed to return an `UncertainObject` where an input is uncertain."""
 
     @wraps(constructor)
-    def made(cls: type, *inputs: Any, **named: Any) -> Any:
+    def construct(cls: type, *inputs: Any, **named: Any) -> Any:
         if is_uncertain(*inputs, *named.values()):
             return UncertainObject(getattr(cls, constructor.__name__), inputs, named)
         return constructor(cls, *inputs, **named)
 
-    return made
+    return construct
 
 
 def concise(value: float, sigma: float, error: float = 0.0) -> str:

@@ -572,8 +572,8 @@ def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density
     common_shape(*(np.shape(value) for value in sizes.values()))
     order = ("density" if key == "mass" and density is not None else key for key in names)
 
-    def exact(first: Any, *lengths: Any) -> tuple[Any, Any]:
-        mass = first if density is None else first * formulas.VOLUMES[name](*lengths)
+    def exact(mass_or_density: Any, *lengths: Any) -> tuple[Any, Any]:
+        mass = mass_or_density if density is None else mass_or_density * formulas.VOLUMES[name](*lengths)
         return formula(mass, *(x * x for x in lengths))
 
     I2, I3 = given(exact, *(sizes[key] for key in order), unit=slice(1), count=2)

@@ -41,8 +41,8 @@ class Shown(CarriesUncertainty):
         """
         if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
-        known = name[0] == "_" or name in self.__dict__ or hasattr(type(self), name)
-        if "arguments" in self.__dict__ and not known:
+        is_known = name[0] == "_" or name in self.__dict__ or hasattr(type(self), name)
+        if "arguments" in self.__dict__ and not is_known:
             raise AttributeError(f"{type(self).__name__} has no attribute {name!r}{nearest(name, self.arguments)}.")
         super().__setattr__(name, value)
 
@@ -58,8 +58,8 @@ class Shown(CarriesUncertainty):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return the call that makes the object again, for copy, pickle and other processes."""
-        own = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
-        return made, (getattr(type(self), own) if own else type(self), dict(self.arguments))
+        constructor_name = self.made_by.partition(".")[2] if "made_by" in self.__dict__ else ""
+        return made, (getattr(type(self), constructor_name) if constructor_name else type(self), dict(self.arguments))
 
     def __repr__(self) -> str:
         """Return the call that makes the object and, behind a #, its kind, or the shape of an array."""
@@ -68,13 +68,13 @@ class Shown(CarriesUncertainty):
 
     def _repr_html_(self) -> str | None:
         """Return as HTML a table of quantities in proven digits and a small picture, for a notebook; or None."""
-        found: str | None = notebook("show").html(self)
-        return found
+        markup: str | None = notebook("show").html(self)
+        return markup
 
     def _repr_latex_(self) -> str | None:
         """Return the table of the quantities as TeX, for a notebook; None without one."""
-        found: str | None = notebook("show").latex(self)
-        return found
+        markup: str | None = notebook("show").latex(self)
+        return markup
 
     def plot(
         self,
@@ -113,8 +113,8 @@ class Shown(CarriesUncertainty):
         AtlasError
             If no such picture of the object exists.
         """
-        drawn: Figure = notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
-        return drawn
+        drawing: Figure = notebook("pictures").plot(self, figure, panel, ax, style, target, parameters)
+        return drawing
 
     def to_dataframe(
         self, times: RealArrayLike | None = None, *, quantities: Sequence[str] | None = None
@@ -165,8 +165,8 @@ def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
 
 def called(name: str, arguments: Mapping[str, Any]) -> str:
     """Return a call as text, "NAME(key=value, ...)"; arguments that are None are left out."""
-    given = ", ".join(f"{key}={_typed_text(value)}" for key, value in arguments.items() if value is not None)
-    return f"{name}({given})"
+    keywords = ", ".join(f"{key}={_typed_text(value)}" for key, value in arguments.items() if value is not None)
+    return f"{name}({keywords})"
 
 
 def _typed_text(value: Any) -> str:
@@ -183,19 +183,19 @@ def _typed_text(value: Any) -> str:
     return repr(value).partition("  # ")[0]  # a field says beside what B' it is
 
 
-def _kind(shown: Shown) -> str:
+def _kind(subject: Shown) -> str:
     """Return the kind of an object in words, "" if it has none; of an array its shape, and the count of each kind.
 
     Of an array above `MAX_COUNTED_OBJECTS` objects only the shape.
     """
-    found = []
+    words = []
     for name in ("case", "kind"):
         with suppress(AtlasError):
-            found.append(getattr(shown, name, ""))
-    shape = getattr(shown, "shape", ())
+            words.append(getattr(subject, name, ""))
+    shape = getattr(subject, "shape", ())
     if not shape:
-        return ", ".join(dict.fromkeys(str(kind) for kind in found if str(kind)))
-    if np.prod(shape) > MAX_COUNTED_OBJECTS or not found:
+        return ", ".join(dict.fromkeys(str(kind) for kind in words if str(kind)))
+    if np.prod(shape) > MAX_COUNTED_OBJECTS or not words:
         return f"shape {shape}"
-    kinds, counts = np.unique(np.asarray(found[-1] if str(found[-1]) else found[0]), return_counts=True)
+    kinds, counts = np.unique(np.asarray(words[-1] if str(words[-1]) else words[0]), return_counts=True)
     return f"shape {shape}: " + ", ".join(f"{count} {kind}" for kind, count in zip(kinds, counts, strict=True))

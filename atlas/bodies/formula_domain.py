@@ -25,20 +25,20 @@ ROD = (
 NO_SUCH_BODY = "since I2 - I3/2, the sum of m z^2 along the axis z, is not negative"
 
 
-def holds(where: Any) -> bool:
+def holds(condition: Any) -> bool:
     """Return whether a condition is true; of an array of conditions, whether any of its elements is."""
-    return bool(where.any() if hasattr(where, "any") else where)
+    return bool(condition.any() if hasattr(condition, "any") else condition)
 
 
-def refuse(where: Any, sentence: str, *values: Any) -> None:
+def refuse(condition: Any, sentence: str, *values: Any) -> None:
     """Raise DomainError with ``sentence`` where a condition holds, for a number or anywhere in an array.
 
     Each {} in the sentence is replaced by one of ``values``, of arrays the first element for which the condition holds.
     """
-    if not holds(where):
+    if not holds(condition):
         return
-    if getattr(where, "shape", ()):
-        values = tuple((x + 0.0 * where)[where].flat[0] for x in values)
+    if getattr(condition, "shape", ()):
+        values = tuple((x + 0.0 * condition)[condition].flat[0] for x in values)
     raise DomainError(sentence.format(*map(written, values)) if values else sentence)
 
 
@@ -143,9 +143,6 @@ def check_D(n3: Number, linear: Number) -> None:
     refuse((n3 == 0) & (linear != 0), sentence)
 
 
-def check_force(force: Any, what: str) -> None:
-    """Raise DomainError where ``force``, a boolean or an array of them, is false: ``what`` needs a magnetic force.
-
-    ``what`` names the quantity in the error.
-    """
-    refuse(force == False, f"Without a magnetic force (mu B = 0) the motion has no {what}.")  # noqa: E712  of arrays too
+def check_force(force: Any, quantity: str) -> None:
+    """Raise DomainError where ``force``, a boolean or an array of them, is false: without it the motion has no ``quantity``."""
+    refuse(force == False, f"Without a magnetic force (mu B = 0) the motion has no {quantity}.")  # noqa: E712  of arrays too

@@ -226,11 +226,11 @@ class Disturbance:
 
         Negligible is a share below SMALL_SHARE for all usual values.
         """
-        of = f" for {self.usual}" if self.usual else ""
+        suffix = f" for {self.usual}" if self.usual else ""
         if self.outweighs:
-            return f"larger than the effect shown{of}"
+            return f"larger than the effect shown{suffix}"
         if self.greatest < SMALL_SHARE:
-            return f"negligible{of}"
+            return f"negligible{suffix}"
         if not self.usual:
             return f"{self.greatest:.2g} of the effect shown"
         return f"larger than the effect shown from this value on; usual values are {self.usual}"
@@ -283,9 +283,9 @@ def disturbances(body: Spinning) -> Iterator[Disturbance]:
                 "time in which radiation takes the energy, at least", r"$\tau$", time, "s",
                 r"$I_3\Omega^2/2P$", "", share, share,
             )  # fmt: skip
-        part = r * body.spin / SPEED_OF_LIGHT
+        beta = r * body.spin / SPEED_OF_LIGHT
         yield Disturbance(
-            "greatest speed beside that of light", r"$\Omega r/c$", part, "", r"$\Omega r/c$", "", part**2, part**2
+            "greatest speed beside that of light", r"$\Omega r/c$", beta, "", r"$\Omega r/c$", "", beta**2, beta**2
         )
 
 

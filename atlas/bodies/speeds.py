@@ -52,11 +52,11 @@ def check_drift(E: Any, B: Any, units: System) -> None:
     warn_of("the drift c [E, B]/B^2", beta)
 
 
-def warn_of(speed: str, part: float) -> None:
-    """Issue a RelativisticWarning that names `speed` if `part`, its value over the speed of light, exceeds a tenth."""
-    if part > MAX_SLOW_SPEED:
+def warn_of(speed: str, beta: float) -> None:
+    """Issue a RelativisticWarning that names `speed` if `beta`, its value over the speed of light, exceeds a tenth."""
+    if beta > MAX_SLOW_SPEED:
         warnings.warn(
-            f"non-relativistic: {speed} is {part:.3g} times the speed of light, above {MAX_SLOW_SPEED:g}: formulas are "
+            f"non-relativistic: {speed} is {beta:.3g} times the speed of light, above {MAX_SLOW_SPEED:g}: formulas are "
             "off by about the square of that.",
             RelativisticWarning,
             stacklevel=4,

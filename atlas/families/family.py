@@ -91,12 +91,12 @@ class Quantity:
     tabled: bool = True
     slow: bool = False
 
-    def value(self, thing: Any, *, exact: bool = False) -> Any:
-        """Return the value of the quantity of an object ``thing`` of the class in doubles or, if ``exact``, in balls.
+    def value(self, subject: Any, *, exact: bool = False) -> Any:
+        """Return the value of the quantity of an object ``subject`` of the class in doubles or, if ``exact``, in balls.
 
         The value is a float, an array, a ball, a tuple of these or a name, as the class has it.
         """
-        return ((exact and self.exact) or self.get or attrgetter(self.name))(thing)
+        return ((exact and self.exact) or self.get or attrgetter(self.name))(subject)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -237,9 +237,9 @@ class Family:
         """Words typed after `atlas`, before the parameters; () for a family that no command computes."""
         return (self.command.name,) if self.command else self.typed
 
-    def case(self, thing: Any) -> str:
-        """Return the name of the case of an object ``thing``, by which words differ; "" in a family without cases."""
-        return str(getattr(thing, self.command.named)) if self.command and self.command.named else ""
+    def case(self, subject: Any) -> str:
+        """Return the name of the case of an object ``subject``, by which words differ; "" in a family without cases."""
+        return str(getattr(subject, self.command.named)) if self.command and self.command.named else ""
 
     def kernels(self) -> Any:
         """Import and return the class that computes in doubles."""

@@ -63,20 +63,19 @@ def nutation(axis: str) -> tuple[Quantity, ...]:
     """
     turns = (("precession", axis), ("spin", "the body's axis"))
 
-    def of(words: str) -> dict[str, Any]:
+    def phrases(words: str) -> dict[str, Any]:
         return {"says": words, "cases": {"free body": (words.replace(f"about {axis}", "about the momentum"), "")}}
 
     return (
         Quantity("period", "period of nutation", TIME, certified=True, cases={"free body": ("period of Omega", "")}),
         *(
             Quantity(f"{name}_per_period", unit="rad", missing="no period", certified=True,
-                     **of(f"turn about {axis_name} in one period"))
+                     **phrases(f"turn about {axis_name} in one period"))
             for name, axis_name in turns
         ),
         *(
-            Quantity(
-                f"{name}_rate", unit=RATE, missing="no period", certified=True, **of(f"mean rate about {axis_name}")
-            )
+            Quantity(f"{name}_rate", unit=RATE, missing="no period", certified=True,
+                     **phrases(f"mean rate about {axis_name}"))
             for name, axis_name in turns
         ),
     )  # fmt: skip
@@ -87,9 +86,9 @@ ELLIPTIC = tuple(
 )
 
 
-def in_brackets(parts: Any) -> str:
-    """Return texts ``parts``, the components of a vector, joined in brackets: "(0.1, 0.2)"."""
-    return f"({', '.join(parts)})"
+def in_brackets(components: Any) -> str:
+    """Return texts ``components``, the components of a vector, joined in brackets: "(0.1, 0.2)"."""
+    return f"({', '.join(components)})"
 
 
 def integrals(letter: str) -> tuple[Quantity, ...]:

@@ -223,7 +223,7 @@ def _tried(problem: Problem) -> list[tuple[float, Any]]:
     for centre, near_centre, start, count in tries(problem):
         try:
             x = follow_data(near_centre, start, count)
-            x = problem.inside(near_centre.carried(x, -centre)) if centre else x
+            x = problem.inside(near_centre.parameters_at(x, -centre)) if centre else x
             chi = problem.chi_square(x)
         except (AtlasError, np.linalg.LinAlgError):
             continue  # no motion of the family starts so

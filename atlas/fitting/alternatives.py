@@ -136,21 +136,21 @@ def warnings_of(
 class _Turned:
     """Motion S R S' for the constant rotations `left` S and `right` S', both (3, 3), at the first N times of the data.
 
-    `seen` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name of the method.
+    `values` holds the arrays of R (N, 3, 3), or of Omega or the field in the body (N, 3), by name of the method.
     """
 
-    seen: Mapping[str, FloatArray]
+    values: Mapping[str, FloatArray]
     left: FloatArray
     right: FloatArray
 
     def rotation(self, t: FloatArray) -> FloatArray:
-        return np.asarray(self.left @ self.seen["rotation"][: t.size] @ self.right)
+        return np.asarray(self.left @ self.values["rotation"][: t.size] @ self.right)
 
     def angular_velocity(self, t: FloatArray) -> FloatArray:
-        return np.asarray(self.seen["angular_velocity"][: t.size] @ self.right)
+        return np.asarray(self.values["angular_velocity"][: t.size] @ self.right)
 
     def field_in_body(self, t: FloatArray) -> FloatArray:
-        return np.asarray(self.seen["field_in_body"][: t.size] @ self.right)
+        return np.asarray(self.values["field_in_body"][: t.size] @ self.right)
 
 
 def equal_solutions(problem: Problem, x: FloatArray, redchi: float, *, signs: bool) -> list[Alternative]:

@@ -33,7 +33,7 @@ def other_conventions(
     is_held = problem.model.has_direction and not any(problem.params[name].free for name in DIRECTION)
     if is_held and data.kind in ("rotation", "axis"):
         freed = problem.params.changed(**{name: {"vary": True} for name in DIRECTION[:2]})
-        yield HELD, Problem(problem.model, data, freed, problem.loss, problem.rate, problem.given)
+        yield HELD, Problem(problem.model, data, freed, problem.loss, problem.rate, problem.start_values)
     for words, R in _readings(data.values, quaternions=quaternions) if data.kind == "rotation" else ():
         read = replace(data, values=R)
         parameters_free, start = parameters(read)
@@ -63,6 +63,6 @@ def minima_of(problem: Problem) -> Iterator[FloatArray]:
     for centre, near_centre, start, count in tries_about(problem, 0):
         try:
             x = follow_data(near_centre, start, count)
-            yield problem.inside(near_centre.carried(x, -centre)) if centre else x
+            yield problem.inside(near_centre.parameters_at(x, -centre)) if centre else x
         except (AtlasError, np.linalg.LinAlgError):
             continue

@@ -84,7 +84,7 @@ class Data:
     notes: tuple[str, ...] = ()
     """Sentences on rows and columns that were left out."""
 
-    def part(self, places: Any) -> "Data":
+    def subset(self, places: Any) -> "Data":
         """Return the `Data` at these times: `places` is an index array or a slice."""
         return replace(self, t=self.t[places], values=self.values[places], sigma=self.sigma[places])
 

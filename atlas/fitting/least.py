@@ -84,7 +84,7 @@ class Crowd:
 
         The derivatives are in the coordinates of `_straight`. `places` are the indices of the data, or a slice.
         """
-        r, J = self.problem.turned(X, places)
+        r, J = self.problem.residuals_and_slopes(X, places)
         if self.spin is not None:
             M, n = X.shape
             h = STEP * self.problem.units_of_free
@@ -120,12 +120,12 @@ class Crowd:
             step = -np.linalg.solve(damped, (g / size)[..., None])[..., 0] / size
             longest = abs(step / problem.units_of_free).max(-1, keepdims=True)
             step = step / np.maximum(longest, 1.0)
-            ahead = problem.apart(self._back(Y + PROBE * step), places)
+            ahead = problem.residuals_of_all(self._back(Y + PROBE * step), places)
             bend = 2 / PROBE * ((ahead - r) / PROBE - (step[:, None] @ J)[:, 0])
             turn = -np.linalg.solve(damped, ((J @ (w * bend)[..., None])[..., 0] / size)[..., None])[..., 0] / size / 2
             much = np.linalg.norm(turn * size, axis=-1) > BEND * np.linalg.norm(step * size, axis=-1)
             new = self._back(Y + step + np.where(much[:, None], 0.0, turn))
-            new_slopes = problem.apart(new, places) if problem.is_closed_form else r, J
+            new_slopes = problem.residuals_of_all(new, places) if problem.is_closed_form else r, J
             if not problem.is_closed_form or (self._cost(new_slopes[0]) < self.costs).any():
                 new_slopes = self._slopes(new, places)
             costs = self._cost(new_slopes[0])

@@ -132,17 +132,17 @@ def flow(model: "Model", p: Mapping[str, FloatArray], error: float) -> Flow:
     size = max(np.size(x) for x in p.values())
     parameters = {name: np.broadcast_to(x, size) for name, x in p.items()}
 
-    def several(names: Sequence[str], none: float = 0.0) -> FloatArray:
+    def columns(names: Sequence[str], none: float = 0.0) -> FloatArray:
         return np.stack([parameters.get(name, np.full(size, none)) for name in names], -1)
 
-    A = Rotation.from_rotvec(several(ATTITUDE)).as_matrix()
+    A = Rotation.from_rotvec(columns(ATTITUDE)).as_matrix()
     moments = np.ones((size, 3))
     moments[:, 0], moments[:, 2] = parameters.get("I1", 1.0), parameters.get("I3", parameters.get("ratio", 1.0))
-    coupling, potential, field, omega = moments, np.zeros((size, 2)), several(B), several(OMEGA)
+    coupling, potential, field, omega = moments, np.zeros((size, 2)), columns(B), columns(OMEGA)
     K = np.vecmat(field, A)
     if model.has_direction:
-        coupling, potential = several(("k2", "k2", "k3")), several(("linear", "quadratic"))
-        field = several(DIRECTION)
+        coupling, potential = columns(("k2", "k2", "k3")), columns(("linear", "quadratic"))
+        field = columns(DIRECTION)
         field = field / np.linalg.norm(field, axis=-1, keepdims=True)
     elif model.is_on_hyperbola:
         omega = _on_hyperbola(moments[:, 2], K.T, parameters["omega2"]).T

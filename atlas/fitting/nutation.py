@@ -146,7 +146,7 @@ def _elementary(problem: Problem, motion: Any, values: Values) -> tuple[Problem,
     """
     model, data, t = model_of("elementary"), problem.data, problem.data.t
     params, _ = parameters_of(model, data, {n: p for n, p in problem.params.items() if n in model.names})
-    elementary = Problem(model, data, params, problem.loss, problem.rate).alone()
+    elementary = Problem(model, data, params, problem.loss, problem.rate).for_single_motions()
     axis, e3 = vector(values, B) / values["b"], np.array([0.0, 0.0, 1.0])
     rates = float(motion.precession_rate), float(motion.spin_rate)
     if not np.isfinite(rates).all():
@@ -227,7 +227,7 @@ class _Modes(NamedTuple):
     """Derivative of the rate of precession in theta."""
     spin: FloatArray
 
-    def part(self, places: Any) -> "_Modes":
+    def subset(self, places: Any) -> "_Modes":
         """Return the `_Modes` at these indices (an array, a list or a slice)."""
         return _Modes(*(x[places] for x in self))
 
@@ -276,7 +276,7 @@ class _Steady:
         pace = (np.outer(modes.precession, self.axis) + modes.spin[:, None] * e3[:, None]) / modes.frequency[:, None]
         return np.concatenate([c * n[:, None] + s * pace, s * n[:, None] - c * pace], 1)
 
-    def beside(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
+    def with_nutation(self, problem: Problem, mode: _Modes, size: FloatArray) -> dict[str, float]:
         """Return the parameters by name of the elementary motion plus one small nutation, a `mode` of arrays (1,).
 
         `size` (2,) are the amplitudes, in rad, of the parts that begin as cos(nu t) and sin(nu t); `problem` gives
@@ -320,7 +320,7 @@ def _nutations(problem: Problem, motion: Any, values: Values, J: FloatArray) -> 
     falls, sizes = _periodogram(problem, steady, modes, problem.inside(values), J)
     higher = np.r_[True, falls[1:] > falls[:-1]] & np.r_[falls[:-1] >= falls[1:], True]
     best = sorted(np.flatnonzero(higher), key=lambda i: -falls[i])[:PEAKS]
-    return falls.size, [(float(falls[i]), steady.beside(problem, modes.part([i]), sizes[i])) for i in best]
+    return falls.size, [(float(falls[i]), steady.with_nutation(problem, modes.subset([i]), sizes[i])) for i in best]
 
 
 def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
@@ -334,7 +334,7 @@ def _spaced(modes: _Modes, fastest: float, span: float) -> list[_Modes]:
         return []
     passed = np.append(0.0, np.cumsum(abs(np.diff(modes.frequency[places])))) * span
     marks = np.arange(0.0, passed[-1], max(PHASE_STEP, passed[-1] / MAX_NUTATIONS)) if places.size > 1 else np.zeros(1)
-    return [modes.part(places[np.searchsorted(passed, marks)])]
+    return [modes.subset(places[np.searchsorted(passed, marks)])]
 
 
 def _periodogram(
@@ -355,7 +355,7 @@ def _periodogram(
     differences = data.differences(steady.motion) if data.kind == "rotation" else np.zeros(3)
     rows = []
     for start_mode in range(0, M, block := max(1, BLOCK // data.t.size)):
-        some_modes = modes.part(slice(start_mode, start_mode + block))
+        some_modes = modes.subset(slice(start_mode, start_mode + block))
         if data.kind == "angular_velocity":
             h = 1e-4 / problem.rate
             v = (steady.turns(data.t + h, some_modes) - steady.turns(data.t - h, some_modes)) / (2 * h)

@@ -44,18 +44,18 @@ class Problem:
     """Least-squares problem of a family on data: N times, k numbers at each, n varied parameters `names`.
 
     Made from the family `model`, the `data`, all parameters `params`, the name `loss` of a loss function, a typical
-    `rate` in rad/time, and the user's start values `given` by name. `units` are the natural units of the parameters
-    by name, `units_of_free` (n,) those of the varied ones. `followed` tells whether motions are integrated,
-    `together` whether they are sought many at once.
+    `rate` in rad/time, and the user's `start_values` by name. `units` are the natural units of the parameters by
+    name, `units_of_free` (n,) those of the varied ones. `followed` tells whether motions are integrated, `together`
+    whether they are sought many at once.
     """
 
     def __init__(
-        self, model: Model, data: Data, params: Parameters, loss: str, rate: float, given: Values | None = None
+        self, model: Model, data: Data, params: Parameters, loss: str, rate: float, start_values: Values | None = None
     ) -> None:
         self.model, self.data, self.params, self.loss = model, data, params, loss
         self.names = [name for name, p in params.items() if p.free]
         self.rate, self.units = rate, units_of(model, rate)
-        self.given = given or {}
+        self.start_values = start_values or {}
         """Start values by name that a user gave."""
         self.units_of_free = np.array([self.units[name] for name in self.names])
         self.error = float(np.clip(1e-2 * np.median(data.sigma) / data.spread, FINE, ERROR))
@@ -69,14 +69,14 @@ class Problem:
     def shifted(self, centre: float, rate: float) -> "Problem":
         """Return the problem with t = 0 moved to the time `centre`, and another typical rate in rad/time."""
         data = replace(self.data, t=self.data.t - centre)
-        return Problem(self.model, data, self.params, self.loss, rate, self.given)
+        return Problem(self.model, data, self.params, self.loss, rate, self.start_values)
 
     @cached_property
     def pinned(self) -> bool:
         """Whether a parameter of the state at t = 0 is given, fixed or bounded: the search must then start at t = 0."""
         state = {*OMEGA, *ATTITUDE, *(B if "a1" in self.gauge else ())} - self.gauge.keys()
         return any(
-            p.expr is not None or not p.vary or np.isfinite([p.min, p.max]).any() or name in self.given
+            p.expr is not None or not p.vary or np.isfinite([p.min, p.max]).any() or name in self.start_values
             for name, p in self.params.items() if name in state
         )  # fmt: skip
 
@@ -134,7 +134,7 @@ class Problem:
             self._latest = key, (self._motion_of(values), values)
         return self._latest[1]  # type: ignore[no-any-return]
 
-    def carried(self, x: Vector, time: float) -> dict[str, float]:
+    def parameters_at(self, x: Vector, time: float) -> dict[str, float]:
         """Return the parameters by name of the motion with parameters x (n,), its state at `time` being the start."""
         motion, values = self.motion(list(x))
         R, omega = motion.rotation(np.array([time])), motion.angular_velocity(np.array([time]))
@@ -150,20 +150,20 @@ class Problem:
         """Whether motions are evaluated in closed form, one at a time: derivatives then cost more than values."""
         return not (self.together or self.followed)
 
-    def alone(self) -> "Problem":
+    def for_single_motions(self) -> "Problem":
         """Return a copy that evaluates one motion at a time, in closed form where that is fast."""
         copy = self.shifted(0.0, self.rate)
         copy.together = False
         return copy
 
-    def apart(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
+    def residuals_of_all(self, X: FloatArray, places: Any = slice(None)) -> FloatArray:
         """Return the residuals (M, N k) of the motions X (M, n) at the data `places`, in standard errors.
 
         `places` are the indices or the slice of the N data. Entries are HUGE where there is no motion.
         """
         if self.is_closed_form:
             return np.stack([self.residuals(x, places) for x in X])
-        return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.part(places))
+        return self._differences(flow(self.model, self.values_of_all(X), self.error), self.data.subset(places))
 
     def _differences(self, motions: Any, data: Data) -> FloatArray:
         """Return the residuals (M, N k) of M motions, a `Flow` or `Rotations`, in standard errors.
@@ -174,7 +174,7 @@ class Problem:
             r = data.differences(motions) / data.sigma
         return np.where(abs(r) < LOST, r, HUGE).reshape(len(r), -1)
 
-    def turned(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
+    def residuals_and_slopes(self, X: FloatArray, places: Any = slice(None)) -> tuple[FloatArray, FloatArray]:
         """Return the residuals of M motions (M, N k), in standard errors, and their derivatives (M, n, N k).
 
         ``X`` (M, n) are the motions' varied parameters, `places` the indices or the slice of the N data. The
@@ -182,9 +182,9 @@ class Problem:
         """
         M, n = X.shape
         if self.is_closed_form:
-            r = self.apart(X, places)
+            r = self.residuals_of_all(X, places)
             return r, np.stack([self._jacobian(x, row, places) for x, row in zip(X, r, strict=True)])
-        h, data = STEP * self.units_of_free, self.data.part(places)
+        h, data = STEP * self.units_of_free, self.data.subset(places)
         varied = np.flatnonzero([not (self.is_turned and name in ATTITUDE) for name in self.names])
         points = np.repeat(X[:, None], 1 + varied.size, 1)
         points[:, 1 + np.arange(varied.size), varied] += h[varied]
@@ -270,7 +270,7 @@ class Problem:
         """
         if self.followed:
             return self._integrated(x, places)[0]
-        data = self.data.part(places)
+        data = self.data.subset(places)
         try:
             motion, _ = self.motion(list(x))
             return np.asarray(data.differences(motion) / data.sigma).ravel()
@@ -284,7 +284,7 @@ class Problem:
         """
         key = tuple(x) if isinstance(places, slice) else None
         if key is None or self._latest_slopes[0] != key:
-            r, J = self.turned(np.array([x]), places)
+            r, J = self.residuals_and_slopes(np.array([x]), places)
             self._latest_slopes = key, (r[0], J[0])
         return self._latest_slopes[1]  # type: ignore[no-any-return]
 
@@ -305,7 +305,7 @@ class Problem:
 
         `places` are the indices or the slice of the N data, of k numbers each.
         """
-        x, data = list(x), self.data.part(places)
+        x, data = list(x), self.data.subset(places)
         if self.followed:
             J = self._integrated(x, places)[1]
             return np.asarray(np.moveaxis(J.reshape(len(x), data.t.size, -1), 0, -1))

@@ -140,7 +140,9 @@ class Fit:
         refined; `doubt` becomes the first warning. Both are "" without such a sentence.
         """
         data = problem.data
-        x, jac = minimum(problem.alone() if problem.loss == "linear" else problem, tried[0][1], steady=bool(steady))
+        x, jac = minimum(
+            problem.for_single_motions() if problem.loss == "linear" else problem, tried[0][1], steady=bool(steady)
+        )
         motion = problem.model.make(problem.values(x))
         r, J = problem.residuals(x), problem.jacobian(x)
         freedom = r.size - len(x)
@@ -162,9 +164,10 @@ class Fit:
             undetermined=(*[steady] * bool(steady), *words, *gauge(problem)),
             warnings=(*[doubt] * bool(doubt), *_warnings(problem, x, residuals, redchi, freedom),
                       *warnings_of(parameters, equal, wider)),
-            alternatives=(*equal, *(found for _, found in wider), *other_minima(problem, tried, freedom * scale**2)),
+            alternatives=(*equal, *(x for _, x in wider), *other_minima(problem, tried, freedom * scale**2)),
             problem=problem,
-            _free=view.null * view.units[:, None], _units=view.units, _whole=view.whole, notes=data.notes,
+            _free=view.null * view.units[:, None], _units=view.units, _whole=view.prediction_covariance,
+            notes=data.notes,
         )  # fmt: skip
 
     if not TYPE_CHECKING:  # else mypy would take any name for an attribute

@@ -202,8 +202,8 @@ def tries(problem: Problem) -> Iterator[tuple[float, Problem, FloatArray, int]]:
 
     A complete start given by the user comes first, on all data.
     """
-    if set(problem.names) <= problem.given.keys():
-        yield 0.0, problem, problem.inside(problem.given), problem.data.t.size
+    if set(problem.names) <= problem.start_values.keys():
+        yield 0.0, problem, problem.inside(problem.start_values), problem.data.t.size
     for k in range(len(PARTS)):
         yield from tries_about(problem, k)
 
@@ -233,7 +233,7 @@ def motions_of_arc(
     count_at_start = max(int((away < ARC).sum()), -(-(len(problem.names) + 4) // problem.width))
     starts_by_name = random(problem, starts, seed, largest)
     unit = np.ones(starts)
-    starts_by_name |= {name: value * unit for name, value in problem.given.items()}
+    starts_by_name |= {name: value * unit for name, value in problem.start_values.items()}
     X = np.stack([starts_by_name.get(name, problem.params[name].value * unit) for name in problem.names], -1)
     crowd, count = Crowd(problem, X), min(count_at_start, len(order))
     crowd.refine(order[:count], 1)
@@ -258,7 +258,7 @@ def follow_data(problem: Problem, x: FloatArray, count: int) -> FloatArray:
     The arc begins with the `count` data nearest to t = 0 and ends with all. If the phase is lost on the way, the
     motion of the last arc is returned.
     """
-    order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.alone(), x[None])
+    order, crowd = np.argsort(abs(problem.data.t), kind="stable"), Crowd(problem.for_single_motions(), x[None])
     misfit = 0.0
     while True:
         count = _count_followed(crowd, order, count, misfit)
@@ -281,7 +281,7 @@ def _count_followed(crowd: Crowd, order: Any, least: int, misfit: float) -> int:
     problem, n = crowd.problem, len(order)
     if least >= n:
         return n
-    off = np.linalg.norm(problem.apart(crowd.X, order).reshape(n, -1), axis=1)
+    off = np.linalg.norm(problem.residuals_of_all(crowd.X, order).reshape(n, -1), axis=1)
     if problem.loss != "linear":
         off = np.minimum(off, np.median(off) * 4)
     mean = np.sqrt(np.convolve(off**2, np.ones(SEVERAL) / SEVERAL, "valid"))

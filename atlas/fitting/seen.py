@@ -59,7 +59,7 @@ class Seen:
             self.covariance = inverse @ spread @ inverse
         square = np.outer(self.units, self.units)
         self.covariance = self.covariance * square
-        self.whole = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
+        self.prediction_covariance = self.covariance + turn[weak].T / size[weak] ** 2 @ turn[weak] * scale**2 * square
         """Covariance (n, n) for predictions: that of the parameters, plus combinations that are hardly determined."""
         self.null = turn[null].T
         self.directions = _separated(turn[self.is_lost].T)

@@ -16,12 +16,12 @@ def of_given(formula: Callable[..., Any]) -> Callable[..., Any]:
     Its inputs are I2, I3, k2, k3, n2, n3, a0, A0, n of any length, and further arguments of the formula.
     """
 
-    def of(*numbers: Number) -> Any:
+    def scaled(*numbers: Number) -> Any:
         I2, I3, k2, k3, n2, n3, a0, A0, *arguments = numbers
         size = length(n2, n3)
         return formula(I3 / I2, k2 / I2, k3 / I2, n2 / size, n3 / size, a0 / I2, A0 / I2, *arguments)
 
-    return of
+    return scaled
 
 
 def constants(
