@@ -144,5 +144,5 @@ def check_D(n3: Number, linear: Number) -> None:
 
 
 def check_force(force: Any, quantity: str) -> None:
-    """Raise DomainError, naming the ``quantity`` that needs a force, where ``force``, a boolean or an array, is false."""
+    """Raise DomainError, naming the ``quantity`` that needs one, where ``force``, a boolean or an array, is false."""
     refuse(force == False, f"Without a magnetic force (mu B = 0) the motion has no {quantity}.")  # noqa: E712  of arrays too
