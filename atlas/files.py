@@ -214,8 +214,8 @@ def hide_notes(folder: Path) -> None:
 
     Nothing happens outside a repository, or in one that cannot be written.
     """
-    here = folder.resolve()
-    git = next((top / ".git" for top in (here, *here.parents) if (top / ".git").exists()), None)
+    root = folder.resolve()
+    git = next((top / ".git" for top in (root, *root.parents) if (top / ".git").exists()), None)
     if git is None:
         return
     if git.is_file():  # of a worktree or a submodule: the repository's folder stands in it

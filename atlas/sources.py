@@ -158,14 +158,14 @@ def _files(name: str, below: Below) -> tuple[Path, ...]:
     if root == "figures":
         return tuple(path for segment in segments[:1] if (path := folder("figures") / f"{segment}.py").is_file())
     homes = {segments[0]} if segments else set(_HOMES)
-    files, here = [PACKAGE / "__init__.py"], PACKAGE
+    files, package_folder = [PACKAGE / "__init__.py"], PACKAGE
     for public in homes & set(_HOMES):
         files += _files(_HOMES[public], below)
     for segment in segments:
-        package, module = below(here, segment)
+        package, module = below(package_folder, segment)
         if package:
             files.append(package)
-            here = package.parent
+            package_folder = package.parent
         else:
             files += [module] if module else []
             break  # what follows is a name inside the module or the package

@@ -48,7 +48,7 @@ def scene(
         small = [layer for layer in diagram.layers if isinstance(layer, Label) and layer.role == "unstable_line"]
         layers = tuple(layer for layer in diagram.layers if layer not in small)  # the swallowtail has room for the rest
         panels += [replace(diagram, layers=layers), *swallowtail(diagram, "abcdef"[len(panels) + 1])]
-    same = f", $b={tex(b[0])}$" if alike else ""
+    length_text = f", $b={tex(b[0])}$" if alike else ""
     drawn_roles = {getattr(layer, "role", "") for panel in panels for layer in panel.layers}
     stability_words = "stable (solid) or unstable (dashed)" if "unstable_line" in drawn_roles else "all stable (solid)"
     kinds = {"start": "stable (dots)", "unstable_point": "of focus-focus type (crosses)"}
@@ -59,7 +59,7 @@ def scene(
             + stability_words
             + (f", and spins along the field or the vertical, {spins}." if spins else ".")
             + (" Inside a swallowtail two stable precessions share $p$." if "unstable_line" in drawn_roles else "")
-            + f" $M_3={tex(M3)}${same}, {listed(top_names)}."
+            + f" $M_3={tex(M3)}${length_text}, {listed(top_names)}."
         ),
         alt=(
             f"Panels for I = {listed([plain(I) for I in ratios])} with the critical energies over p: a smooth curve, "

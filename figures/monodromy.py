@@ -146,8 +146,8 @@ def lattice(name: str, loop: Monodromy, is_first: bool) -> Plane:
         Arrow(start, end, "component"),
         Points(track[:1], "start", r"$\mathbf{g}_3$"),
     ]
-    here = {tuple(np.rint(point - start)) for point in grid}
-    corner = next((m, n) for m, n in sorted(here) if {(m + 1, n), (m, n + 1)} <= here) + start
+    integers = {tuple(np.rint(point - start)) for point in grid}
+    corner = next((m, n) for m, n in sorted(integers) if {(m + 1, n), (m, n + 1)} <= integers) + start
     layers += [Arrow(corner, corner + np.eye(2)[i], "basis", rf"$\mathbf{{g}}_{i + 1}$") for i in range(2)]
     return Plane(
         tuple(layers),

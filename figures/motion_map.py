@@ -59,9 +59,11 @@ def scene(
         x.reshape(-1, cells, cells) for x in (amplitudes(columns, field), columns["least"], columns["largest"])
     )
     end = "b" if len(ratios) > 1 else "a"
-    most = STEP * float(np.ceil(np.max(swings) / STEP))
+    max_swing = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
-        panel(f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, most, letter == end)
+        panel(
+            f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, max_swing, letter == end
+        )
         for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(
@@ -103,10 +105,10 @@ def panel(
     swing: FloatArray,
     ends: Sequence[FloatArray],
     unit: str,
-    most: float,
+    max_swing: float,
     bar: bool,
 ) -> Plane:
-    """Return the map of one body, a `Plane`; the scale of colours, up to ``most`` degrees, stands beside it if ``bar``.
+    """Return the map of one body, a `Plane`; the colour scale, up to ``max_swing`` degrees, stands beside it if ``bar``.
 
     `name` is the title, `I` is I3/I2, `field` (B2, B3), `edges` are those of the cells in omega2 and omega3,
     `swing` (n, n) the amplitudes in degrees over omega3 and omega2, `ends` two such arrays, (n, n) over omega2 and
@@ -118,14 +120,14 @@ def panel(
     omega = np.stack([np.zeros_like(second), second, third], axis=-1)
     looping = (trace_map(I, field, omega, (ends[0].T, ends[1].T)) == 2).astype(float)
     view = Window((float(x[0]), float(x[-1])), (float(y[0]), float(y[-1])))
-    layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, most))]
+    layers: list[Layer] = [Image(x, y, swing, "amplitude (degrees)" if bar else "", limits=(0.0, max_swing))]
     layers += [Curve(line, "map_border") for line in borders(*middle, looping)]
     layers += [Curve(line, "map_curve") for line in branches(I, field, view, (PANEL, PANEL))]
     layers += [Points(np.array([place.point]), place.role) for place in places(I, field) if place.role != "point"]
     layers += [
-        Label(inmost(*middle, (looping == k) & (swing > most / 4)), word)
+        Label(inmost(*middle, (looping == k) & (swing > max_swing / 4)), word)
         for k, word in ((1.0, "loops"), (0.0, "waves"))
-        if ((looping == k) & (swing > most / 4)).any()
+        if ((looping == k) & (swing > max_swing / 4)).any()
     ]
     return view.panel(layers, unit, equal=True, title=name)
 

@@ -73,11 +73,11 @@ def scene(
     )
 
 
-def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, unit: str) -> Plane:
+def stems(heading: str, lines: Spectrum, least: float, count: int, top: float, unit: str) -> Plane:
     """Return a `Plane` of spectral lines; lines with turns about the field or the body's axis are of a second kind.
 
     `heading` is the title. Amplitudes are norms of complex amplitudes over the root mean square, drawn from
-    ``least`` / 2 on; the ``names`` highest lines bear their whole numbers. Frequencies, in rad/time, go from 0 up
+    ``least`` / 2 on; the ``count`` highest lines bear their whole numbers. Frequencies, in rad/time, go from 0 up
     to ``top``; without a ``unit`` the axis has no name, and the kinds have.
     """
     size = np.sqrt(lines.power / lines.mean_square)
@@ -96,7 +96,7 @@ def stems(heading: str, lines: Spectrum, least: float, names: int, top: float, u
         layers.append(Points(np.column_stack([f, size])[chosen], "point" if turns else "rest"))
     labelled: list[int] = []
     for n in np.argsort(-size):
-        if len(labelled) < names and all(abs(f[n] - f[neighbour]) > BESIDE * top for neighbour in labelled):
+        if len(labelled) < count and all(abs(f[n] - f[neighbour]) > BESIDE * top for neighbour in labelled):
             labelled.append(int(n))
     for n in sorted(
         labelled, key=lambda n: float(f[n])

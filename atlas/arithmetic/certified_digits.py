@@ -89,7 +89,7 @@ def printed(value: Real, digits: int, layout: Layout) -> Printed:
         return _fixed(lower, upper, digits)
     if lower == upper == 0:
         return Printed("0", digits, complete=True)
-    for count in range(_most(lower, upper, digits), 0, -1):
+    for count in range(_max_digits(lower, upper, digits), 0, -1):
         low, high = _rounded(lower, count), _rounded(upper, count)
         if low == high:
             mark = "" if count == digits else MARK
@@ -153,7 +153,7 @@ def _ends(value: Real) -> tuple[fmpq, fmpq]:
     return middle - radius, middle + radius
 
 
-def _most(lower: fmpq, upper: fmpq, digits: int) -> int:
+def _max_digits(lower: fmpq, upper: fmpq, digits: int) -> int:
     """Return an upper bound, at most ``digits``, on the number of digits that both ends share.
 
     It is ``digits`` for equal ends, else 0 if zero lies between them.

@@ -99,8 +99,8 @@ def spread(
     ended = {key for x in terms for key in x.ended if sigma[key] > ROUNDING * sizes[key]} - curved
     error, sentences = Numbers(), {ONE_SIDED: ended}
     if curved:
-        few = 4 * MIN_DRAWS
-        size = few if seconds > SLOW_ANSWER else min(DRAWS, max(MAX_DRAWN_NUMBERS // len(numbers), few))
+        min_size = 4 * MIN_DRAWS
+        size = min_size if seconds > SLOW_ANSWER else min(DRAWS, max(MAX_DRAWN_NUMBERS // len(numbers), min_size))
         draws = _draws(answer, count, curved, size, progress)
         deviations = {key: _deviation(values, size) for key, values in draws.items()}
         sigma |= {key: deviation for key, (deviation, _) in deviations.items()}
@@ -209,8 +209,8 @@ def _sentences_on(draws: Mapping[Place, list[float]], size: int) -> dict[str, se
     lost_keys = {key for key, values in draws.items() if _is_lost(values, size)}
     sentences = {}
     for keys, text in ((draws.keys() - lost_keys, BY_SAMPLING), (lost_keys, BY_NEITHER)):
-        most = size - min((len(draws[key]) for key in keys), default=size)
-        sentences[text.format(f"{size} draws" + f", {most} of them without a value" * bool(most))] = keys
+        failures = size - min((len(draws[key]) for key in keys), default=size)
+        sentences[text.format(f"{size} draws" + f", {failures} of them without a value" * bool(failures))] = keys
     return sentences
 
 

@@ -509,8 +509,8 @@ class SymmetricBody(CarriesUncertainty):
         gap = nearest((upper - lower) / upper) if upper != 0 else 0.0
         difference = f"of its principal mass moments {g} the closest two differ by {gap:.3g} of the larger"
         if gap > max(tolerance, NEARLY_EQUAL):
-            most = max(tolerance, NEARLY_EQUAL)
-            raise DomainError(f"The body is not symmetric: {difference}, more than the tolerance {most:g}.")
+            limit = max(tolerance, NEARLY_EQUAL)
+            raise DomainError(f"The body is not symmetric: {difference}, more than the tolerance {limit:g}.")
         if gap > tolerance:
             warnings.warn(
                 f"The body is nearly symmetric: {difference}, and are joined; say tolerance={NEARLY_EQUAL:g} if they "

@@ -129,8 +129,8 @@ class Document:
 
         def link(name: str, place: str) -> Link:
             says = f"{name}: {plain(EQUATIONS[name].says)}" if name in EQUATIONS and target == "html" else ""
-            if here := self.place(name, printed=target == "typst"):
-                file, anchor, words = here
+            if target_link := self.place(name, printed=target == "typst"):
+                file, anchor, words = target_link
                 return Link(words, file if target == "html" else "", anchor, says)
             if links := self.beside.ask("link", name):
                 link_beside = Link(*links[0])
@@ -157,10 +157,10 @@ class Document:
             return Link(title, f"{folder}/index.html", "page-index")
         if name == "page:gallery" and self.report.gallery:
             return Link("gallery", f"{folder}/gallery.html", "page-gallery")
-        here = self.place(name)
-        if here is None:
+        place = self.place(name)
+        if place is None:
             return None
-        file, anchor, words = here
+        file, anchor, words = place
         counted = name.startswith(("fig:", "tab:"))
         return Link(f"{words} of {title}" if counted else words, f"{folder}/{file}", anchor)
 
@@ -203,12 +203,12 @@ class Document:
         If `printed`, a name that the PDF displays too leads there, and file and anchor are "" for one that only the
         HTML shows.
         """
-        here = self.targets.get(name)
-        if name in self.ledger and not (printed and here):
-            here = f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
-        if here and printed and here[0] not in {page.file for page in self.printed}:
-            return "", "", here[2]
-        return here
+        target = self.targets.get(name)
+        if name in self.ledger and not (printed and target):
+            target = f"{self.ledger[name]}.html", f"ledger-{slug(name)}", self.number(name)
+        if target and printed and target[0] not in {page.file for page in self.printed}:
+            return "", "", target[2]
+        return target
 
     def entry(self, name: str) -> str:
         """Return the address, without suffix, of the page of an equation's ledger entry, here or in a related report.

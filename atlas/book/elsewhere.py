@@ -37,8 +37,8 @@ def near(request: Asked) -> Iterator[tuple[str, Asked]]:
         pair = (-w1, opposite(B2, w2), opposite(B3, w3))
         yield r"the pair $-2\mathbf{B}'-\boldsymbol\omega$, @theorem-pair", request.changed(name, omega=pair, spin=None)
         if B2 and w2 != -B2:
-            same = request.changed("elementary", omega2=w2, omega=None, spin=None)
-            yield r"the motion without nutation with this $\omega_2$", same
+            steady = request.changed("elementary", omega2=w2, omega=None, spin=None)
+            yield r"the motion without nutation with this $\omega_2$", steady
     yield from _of_other_bodies(request)
     if request.family.sampled:
         yield (

@@ -140,9 +140,9 @@ def _faults_of_record(raw: dict[str, Any], kind: inspect.StructType, place: str)
             yield from _faults(value, fields[key].type, f"{place}, {key}" if place else key, key)
         elif key != kind.tag_field:
             yield SchemaError(place, str(unknown("key", key, fields, "here")).rstrip("."), key)
-    meant = {name for key in raw if key not in fields for name in get_close_matches(key, fields, 1)}
+    meant_keys = {name for key in raw if key not in fields for name in get_close_matches(key, fields, 1)}
     for key, field in fields.items():
-        if field.required and key not in raw and key not in meant:
+        if field.required and key not in raw and key not in meant_keys:
             yield SchemaError(place, f"it lacks the key {key!r}, {_words(field.type)}")
 
 

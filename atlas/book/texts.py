@@ -170,18 +170,18 @@ def deepest(markdown: str) -> int:
 
     Brackets are counted by paragraph, closed or not; an escaped one does not count.
     """
-    most = 0
+    max_depth = 0
     for paragraph in re.split(r"\n\s*\n", re.sub(r"\\[\\\[\]{}]", "", markdown)):
         for start, end in ("[]", "{}"):
             depth = 0
             for mark in re.findall(rf"[\{start}\{end}]", paragraph):
                 depth = depth + 1 if mark == start else max(0, depth - 1)
-                most = max(most, depth)
+                max_depth = max(max_depth, depth)
     for quoted in re.findall(r"^[ >]*>", markdown, re.MULTILINE):
-        most = max(most, quoted.count(">"))
+        max_depth = max(max_depth, quoted.count(">"))
     for indent in re.findall(r"^[ \t]+(?=[-*+\d])", markdown, re.MULTILINE):
-        most = max(most, len(indent.expandtabs(4)) // 4)
-    return most
+        max_depth = max(max_depth, len(indent.expandtabs(4)) // 4)
+    return max_depth
 
 
 def title(text: str) -> str:

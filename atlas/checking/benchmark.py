@@ -251,10 +251,10 @@ def panels(cases: Mapping[str, Sequence[Layer]], labels: tuple[str, str], room: 
 
 def measured(record: Results, libraries: Iterable[str] = ("numpy", "scipy")) -> str:
     """Return a sentence on machine, date and versions of a record; only `libraries` that the record has are named."""
-    here = record.machine
-    vector = "with" if here.avx512 else "without"
+    machine = record.machine
+    vector = "with" if machine.avx512 else "without"
     versions = ", ".join(f"{name} {record.versions[name]}" for name in libraries if name in record.versions)
-    return f"Measured on {here.processor}, {here.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
+    return f"Measured on {machine.processor}, {machine.cores} cores, {vector} AVX-512, {versions}, on {record.date}."
 
 
 def power(value: float) -> str:

@@ -140,12 +140,12 @@ class Check:
             raise AtlasError(
                 f"{self.file} is without an initial angular velocity, and so without an error to plot: give --omega."
             )
-        least, most = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
+        low, high = 10.0**-MAX_DIGITS, 10.0**MAX_DIGITS
         layers = tuple(
-            Curve(np.column_stack([self.times, np.clip(errors, least, most)]), *LINES[name])
+            Curve(np.column_stack([self.times, np.clip(errors, low, high)]), *LINES[name])
             for name, errors in self.errors.items()
         )
-        beyond = f" Errors beyond {most:g} are drawn there." if max(map(max, self.errors.values())) > most else ""
+        beyond = f" Errors beyond {high:g} are drawn there." if max(map(max, self.errors.values())) > high else ""
         limit = 10.0**-self.threshold
         line = Curve(
             np.array([[min(self.times), limit], [max(self.times), limit]]), "limit", f"{self.threshold:g} digits"

@@ -75,8 +75,8 @@ class Errors:
         rows = self._truth.within(t)
         R, Omega, q = self._truth.values(np.where(rows, t, 0.0))
         if QUATERNION[0] in block:
-            same = sum(block[name] * q[:, i] for i, name in enumerate(QUATERNION))
-            q = np.where(np.asarray(same)[:, None] < 0, -q, q)
+            products = sum(block[name] * q[:, i] for i, name in enumerate(QUATERNION))
+            q = np.where(np.asarray(products)[:, None] < 0, -q, q)
         true: dict[str, Long] = {}
         for names, values in zip(GROUPS.values(), (R, Omega, q), strict=True):
             true |= dict(zip(names, values.T, strict=True))
@@ -128,8 +128,8 @@ class Errors:
                 truth |= dict(zip(OMEGA, _precise(partial(motion.angular_velocity, t)), strict=True))
             if QUATERNION[0] in row:
                 quaternion: list[Real] = _precise(partial(_quaternion, motion, t))
-                same = sum((arb(row[n]) * x for n, x in zip(QUATERNION, quaternion, strict=True)), arb(0))
-                truth |= dict(zip(QUATERNION, quaternion if same >= 0 else [-x for x in quaternion], strict=True))
+                product = sum((arb(row[n]) * x for n, x in zip(QUATERNION, quaternion, strict=True)), arb(0))
+                truth |= dict(zip(QUATERNION, quaternion if product >= 0 else [-x for x in quaternion], strict=True))
             units = {name: arb(self._unit) if name in OMEGA else arb(1) for name in row}
             bounds = {name: (abs(arb(x) - truth[name]) / units[name]).upper() for name, x in row.items()}
         return {name: min(float(bound), LARGEST) for name, bound in bounds.items()}

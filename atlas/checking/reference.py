@@ -146,11 +146,11 @@ def _top(values: Given, file: str) -> Reference:
     Errors of Omega are in units of the top's largest rate. Raises AtlasError for parameters of another body, and
     for missing ones.
     """
-    strange = values.keys() & {"field", "omega2", "omega3", "ratio"}
-    if strange or len(values.get("inertia", ())) != 2:
+    refused = values.keys() & {"field", "omega2", "omega3", "ratio"}
+    if refused or len(values.get("inertia", ())) != 2:
         raise AtlasError(
             f"{file} is of a top, since it has {' and '.join(sorted(values.keys() & set(OF_TOPS)))}: give inertia = "
-            f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_refused(strange)}."
+            f"I2 I3, direction, omega and, where they are not zero, coupling, linear, quadratic{_refused(refused)}."
         )
     omega, direction = _parameter(values, "omega", file), _parameter(values, "direction", file)
     coupling = values.get("coupling", (0.0, 0.0))

@@ -85,11 +85,11 @@ class Simulation:
         to their initial values.
         """
         now, start = self.integrals(), clebsch(self.inertia, self.omega, self.field)
-        least, *_, most = np.linalg.eigvalsh(self.inertia)
+        I1, *_, I3 = np.linalg.eigvalsh(self.inertia)
         M, K = np.linalg.norm(self.inertia @ (self.omega + self.field)), np.linalg.norm(self.field)
         sizes = {
-            "H": M * M / least + most * K * K,
-            "F": M * M + most * most * K * K,
+            "H": M * M / I1 + I3 * K * K,
+            "F": M * M + I3 * I3 * K * K,
             "MK": M * K,
             "K2": start.K2,
             "energy": start.energy,

@@ -193,8 +193,8 @@ def _of_shape(shape: str, sizes: Mapping[str, Any], mass: Any) -> Any:
     if shape == ROD:
         raise click.UsageError(ROD_REASON)
     if shape not in shapes_by_name:
-        meant = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, shapes_by_name)
-        raise click.UsageError(f"there is no shape {shape!r}{meant}; the shapes are {', '.join(shapes_by_name)}.")
+        hint = f" (did you mean {LIKE[shape]}?)" if shape in LIKE else nearest(shape, shapes_by_name)
+        raise click.UsageError(f"there is no shape {shape!r}{hint}; the shapes are {', '.join(shapes_by_name)}.")
     if set(sizes) != set(shapes_by_name[shape]):
         wanted_names, typed_options = (
             " ".join(f"--{size}" for size in names) or "none" for names in (shapes_by_name[shape], sizes)
@@ -309,8 +309,8 @@ def mass_of(options: Mapping[str, Any]) -> Any:
     if options.get("mass") is not None or not all(lengths) or not lengths:
         solids = ", ".join(VOLUMES).replace("_", "-")
         if shape not in VOLUMES:
-            thin = f"a {options['shape']} is without thickness and has no volume"
-            raise click.UsageError(f"--density: {thin}; give --mass instead, or a solid --shape ({solids}).")
+            reason = f"a {options['shape']} is without thickness and has no volume"
+            raise click.UsageError(f"--density: {reason}; give --mass instead, or a solid --shape ({solids}).")
         raise click.UsageError(f"--density goes with all sizes of a {options['shape']} and without --mass.")
     with workprec(512):
         mass = as_rational(rational(options["density"]) * VOLUMES[shape](*map(rational, lengths)))

@@ -132,8 +132,10 @@ class OneObject(Command):
                 args = _without(args, dropped)
         if faults:
             option_names = [opt for param in self.params for opt in param.opts]
-            meant = {next(iter(get_close_matches(name, option_names, 1)), name).removeprefix("--") for name in dropped}
-            refuse([*faults, *faults_of(self.family, ctx.params, meant)])
+            intended = {
+                next(iter(get_close_matches(name, option_names, 1)), name).removeprefix("--") for name in dropped
+            }
+            refuse([*faults, *faults_of(self.family, ctx.params, intended)])
         return remaining_words
 
 
@@ -406,12 +408,12 @@ def best(words: Words) -> str:
         parameters = {
             opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts
         }
-        strange = sum(
+        excess = sum(
             2 if opt not in parameters else parameters[opt].nargs not in {len(x.values), len(x.components)}
             for opt, x in option_by_name.items()
         )
         starts = not {"--omega", "--spin"} & option_by_name.keys() if "--spin" in parameters else 0
-        return strange, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
+        return excess, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
 
     return min(COMMANDS, key=misfit)
 

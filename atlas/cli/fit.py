@@ -116,9 +116,9 @@ def arguments(options: dict[str, Any]) -> dict[str, Any]:
                 raise click.UsageError(f"{name} is given twice: it is fixed by --fix or sought by --start, once.")
             values[name] = value
     sigma = None if options["sigma"] is None else float(options["sigma"])
-    same = {name: options[name] for name in ("family", "kind", "loss")}
+    choices = {name: options[name] for name in ("family", "kind", "loss")}
     numbers: dict[str, Any] = {"sigma": sigma, "epoch": float(options["epoch"])}
-    return {**same, **numbers, "fix": given_values["fix"], "params": given_values["start"]}
+    return {**choices, **numbers, "fix": given_values["fix"], "params": given_values["start"]}
 
 
 def ahead(result: Any, options: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -196,13 +196,13 @@ def measured_columns(
     they are; names that are not in `options` keep their numbers. Raises click.UsageError, with the line.
     """
     units, lines = cells_of(path)
-    meant = [
+    units_and_options = [
         (name, unit, None if unit in ("", "1", *plain.get(name, ())) else options.get(name))
         for name, unit in units.items()
     ]
     columns: dict[str, list[float]] = {name: [] for name in units}
     for number, line in lines:
-        for (name, unit, option), cell in zip(meant, line, strict=True):
+        for (name, unit, option), cell in zip(units_and_options, line, strict=True):
             try:
                 x = float(cell)
                 columns[name].append(float(Fraction(x) * size(unit, option)) if option else x)

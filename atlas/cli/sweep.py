@@ -114,7 +114,7 @@ def requested(options: dict[str, Any]) -> tuple[str, dict[str, Any], str]:
     fixed, axes = (_uncertain_body(options), "") if uncertain(options) else _body(options)
     names = [*fixed, *(name.strip() for name, _ in settings)]
     _once(names, "--set" + " and the options of body and field" * bool(fixed))
-    family = _meant(options["family"], {*names})
+    family = _family_of(options["family"], {*names})
     _check_moments(family, fixed, options)
     return family, fixed | {name.strip(): values for name, values in settings}, axes
 
@@ -234,7 +234,7 @@ def command(**options: Any) -> None:
     swept(**options)
 
 
-def _meant(family: str, names: set[str]) -> str:
+def _family_of(family: str, names: set[str]) -> str:
     """Return the family to sweep: `family` itself, or for "motion" the one that has the parameters `names`.
 
     I1 is that of asymmetric, else omega1 that of general; without both the family is elementary.

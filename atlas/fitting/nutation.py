@@ -283,8 +283,8 @@ class _Steady:
         the model and the kind of data.
         """
         h = 1e-4 / problem.rate
-        back, here, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
-        R, steady = Rotation.from_rotvec(here).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
+        back, now, ahead = (size @ v for v in self.turns(np.array([-h, 0.0, h]), mode))
+        R, steady = Rotation.from_rotvec(now).as_matrix() @ self.R, np.array([*self.omega[:2], mode.omega3[0]])
         omega = steady + self.R.T @ (ahead - back) / (2 * h)
         field = dict(zip(B, (mode.field[0] * self.axis).tolist(), strict=True))
         return state(

@@ -85,8 +85,8 @@ def centre_of(data: Data, rate: float, share: float) -> float:
     t, count = data.t, np.zeros(data.t.size)
     for width in (WINDOW / rate, 2 * ARC / rate):
         count += np.searchsorted(t, t + width, "right") - np.searchsorted(t, t - width)
-    most = np.flatnonzero(count >= 0.8 * count.max())
-    return float(t[most[np.argmin(abs(most - share * t.size))]])
+    dense_places = np.flatnonzero(count >= 0.8 * count.max())
+    return float(t[dense_places[np.argmin(abs(dense_places - share * t.size))]])
 
 
 def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
@@ -101,9 +101,9 @@ def local(data: Data, rate: float) -> tuple[FloatArray, FloatArray]:
     t, x = data.t[rows], data.values[rows]
     start = np.zeros(0)
     if data.kind == "rotation":
-        few = x[:9]
-        off = np.linalg.norm(difference(few[:, None], few), axis=-1)
-        start = few[np.argmin(np.median(off, 1))]
+        sample = x[:9]
+        off = np.linalg.norm(difference(sample[:, None], sample), axis=-1)
+        start = sample[np.argmin(np.median(off, 1))]
         x = difference(start.T @ x, np.eye(3))
     powers = t[:, None] ** np.arange(3 if rows.size > 6 else 2)
     weights = np.ones(len(t))

@@ -204,9 +204,10 @@ def on_loop(
         previous_times, turns = [arb(0), arb(0)], []
         for time, *angles in [*rows, rows[0]]:
             for i, (angle, mean) in enumerate(zip(angles, means, strict=True)):
-                here = (angle - mean * time) / turn
-                here -= round(float(here - previous_times[i]))
-                step, previous_times[i] = max(step, float(abs(here - previous_times[i]).upper())), here
+                angle_in_turns = (angle - mean * time) / turn
+                angle_in_turns -= round(float(angle_in_turns - previous_times[i]))
+                step = max(step, float(abs(angle_in_turns - previous_times[i]).upper()))
+                previous_times[i] = angle_in_turns
             turns.append([x + mean * time / turn for x, mean in zip(previous_times, means, strict=True)])
         if not step < 1 / 4:
             raise DomainError(

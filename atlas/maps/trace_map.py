@@ -38,6 +38,6 @@ def trace_map(ratio: Any, field: Any, omega: Any, ends: tuple[Any, Any] | None =
         return p - M3 * nu - b * (1 - nu * nu)
 
     # it is convex in nu: its sign changes at the ends or below its least value between them
-    least = rate(np.clip(M3 / (2 * b), low, high))
-    most = np.maximum(rate(low), rate(high))
-    return np.where(high - low <= TOLERANCE, 0, np.where((least < 0) & (most > 0), 2, 1))
+    min_rate = rate(np.clip(M3 / (2 * b), low, high))
+    max_rate = np.maximum(rate(low), rate(high))
+    return np.where(high - low <= TOLERANCE, 0, np.where((min_rate < 0) & (max_rate > 0), 2, 1))

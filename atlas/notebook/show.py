@@ -97,8 +97,8 @@ def _image(draw: Callable[[], Any]) -> str:
         with Image.open(file) as image:
             white = Image.new("RGBA", image.size, "white")
             white.alpha_composite(image.convert("RGBA"))
-        few = white.convert("RGB").quantize(COLOURS, kmeans=3, dither=Image.Dither.NONE)
-        few.save(small, "png", optimize=True)
+        reduced = white.convert("RGB").quantize(COLOURS, kmeans=3, dither=Image.Dither.NONE)
+        reduced.save(small, "png", optimize=True)
         return f'<img width="{WIDTH}" alt="" src="data:image/png;base64,{b64encode(small.getvalue()).decode()}">'
     return ""
 

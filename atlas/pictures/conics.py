@@ -69,8 +69,8 @@ def _spans(
     low, high = s[k], s[k + 1]
     for _ in range(_HALVINGS if k.size else 0):
         middle = 0.5 * (low + high)
-        same = ((point(middle) * normals[side]).sum(axis=1) <= distances[side]) == inside[k, side]
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+        is_same_side = ((point(middle) * normals[side]).sum(axis=1) <= distances[side]) == inside[k, side]
+        low, high = np.where(is_same_side, middle, low), np.where(is_same_side, high, middle)
     ends = [start, *low.tolist(), stop]
     ends.sort()
     stretches = [(a, b) for a, b in pairwise(ends) if b - a > _FLAT * (stop - start)]

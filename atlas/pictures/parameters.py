@@ -116,10 +116,10 @@ def described(hint: Any, default: Any) -> str:
         return " or ".join(map(str, inner))
     if origin is tuple:
         is_open, plain = inner[-1] is Ellipsis, inner[0] in _PLAIN and len({*inner} - {Ellipsis}) == 1
-        many = _PLURAL[inner[0]].partition(",")[0] if plain else "values"
+        plural = _PLURAL[inner[0]].partition(",")[0] if plain else "values"
         if is_open and get_origin(inner[0]) is tuple:
             return f"lists of {described(inner[0], None)}, one after the other"
-        return f"a list of {many}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {many}"
+        return f"a list of {plural}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {plural}"
     return _PLAIN[float if kind is Any else kind][0].partition(",")[0] if kind in {Any, *_PLAIN} else "a value"
 
 
@@ -187,15 +187,15 @@ def _list(value: Any, inner: tuple[Any, ...]) -> tuple[Any, ...]:
         plural = f"lists of {described(inner[0], None)}"
         if not any(isinstance(item, list | tuple) for item in value):
             value = [value[i : i + len(lists)] for i in range(0, len(value), len(lists))]
-    many = f"a list of 1 to {MAX_VALUES} {plural}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {plural}"
+    expected = f"a list of 1 to {MAX_VALUES} {plural}" if is_open else f"{COUNTS.get(len(inner), len(inner))} {plural}"
     if not isinstance(value, list | tuple) or not (
         0 < len(value) <= MAX_VALUES if is_open else len(value) == len(inner)
     ):
-        raise _Unfit(many)
+        raise _Unfit(expected)
     try:
         return tuple(map(_fit, value, inner[:1] * len(value) if is_open else inner))
     except _Unfit as wrong:
-        raise _Unfit(many) from wrong
+        raise _Unfit(expected) from wrong
 
 
 def _drawable(value: Any) -> bool:

@@ -182,9 +182,9 @@ def vectors(I: float, beta: float, field: tuple[float, float]) -> list[Layer]:
     if (inverse == prime).all():
         arrows = [Arrow(O, prime, "field", rf"$\mathbf{{B}}'={inverse_name}$")]
     else:
-        length, most = float(np.linalg.norm(inverse)), MAX_ARROW_RATIO * float(np.linalg.norm(prime))
-        inverse_name = f"${inverse_name}$" if length <= most else f"${inverse_name}$, cut"
-        inverse = inverse * min(1.0, most / length)
+        length, max_length = float(np.linalg.norm(inverse)), MAX_ARROW_RATIO * float(np.linalg.norm(prime))
+        inverse_name = f"${inverse_name}$" if length <= max_length else f"${inverse_name}$, cut"
+        inverse = inverse * min(1.0, max_length / length)
         arrows = [Arrow(O, prime, "field", r"$\mathbf{B}'$"), Arrow(O, inverse, "field_inverse", inverse_name)]
     layers: list[Layer] = [*arrows, Curve(np.stack([O, -prime]), "construction"), Points(O[None], "origin", r"$O$")]
     if abs(beta) > _FLAT:

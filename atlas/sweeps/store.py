@@ -281,8 +281,8 @@ class Table:
         """
         for _ in range(10):
             record = self._record() or {}
-            here = record.get("host") == socket.gethostname() and os.name == "posix"
-            if "pid" in record and (not here or files.alive(int(record["pid"]))):
+            is_local = record.get("host") == socket.gethostname() and os.name == "posix"
+            if "pid" in record and (not is_local or files.alive(int(record["pid"]))):
                 return f" (process {record['pid']} on {record['host']}, since {record['since']})"
             time.sleep(0.05)
         return ""

@@ -60,14 +60,14 @@ class EntryView:
         return slug(self.finding.slip)
 
 
-def entries(composer: Composer, names: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
-    """Return the views of the entries for which `names` (entry, finding) is true, in the order of the ledger.
+def entries(composer: Composer, is_chosen: Callable[[Equation, Finding], bool]) -> tuple[EntryView, ...]:
+    """Return the views of the entries for which `is_chosen` (entry, finding) is true, in the order of the ledger.
 
     An entry without a recorded finding of the trial is undecided. The texts of the views are added to the document.
     """
     nothing = Finding("undecided", "not tried", "")
     pairs = ((entry, composer.recorded.findings.get(name, nothing)) for name, entry in EQUATIONS.items())
-    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if names(entry, finding))
+    return tuple(_entry(entry, finding, composer) for entry, finding in pairs if is_chosen(entry, finding))
 
 
 def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:

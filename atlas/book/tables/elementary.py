@@ -38,9 +38,9 @@ def side_by_side(
     values_of = ["Value"] if len(bodies) == 1 else [title[:1].upper() + title[1:] for title in titles]
     columns = heads("Quantity", "Symbol", *values_of, "Unit")
     rows = []
-    for same in zip(*bodies, strict=True):
-        name, symbol, _, unit = same[0]
-        values = [case.value for case in same]
+    for quantities in zip(*bodies, strict=True):
+        name, symbol, _, unit = quantities[0]
+        values = [case.value for case in quantities]
         numbers = iter(column([value for value in values if not isinstance(value, str)], request.digits))
         cells = [value if isinstance(value, str) else next(numbers) for value in values]
         rows.append((name, symbol, *cells, unit or "1" * bool(symbol)))

@@ -83,7 +83,7 @@ class Explorer(ThreadingHTTPServer):
 
     def admits(self, ticket: str) -> bool:
         """Return whether a text is a ticket that was issued and not used, and invalidate it."""
-        used = {issued for issued in [*self.tickets] if _same(issued, ticket)}
+        used = {issued for issued in [*self.tickets] if _are_equal(issued, ticket)}
         self.tickets -= used
         return bool(used)
 
@@ -119,7 +119,7 @@ class Handler(BaseHTTPRequestHandler):
         if refused := self._refused(folder):
             self._send(HTTPStatus.FORBIDDEN, refused.encode(), "text/plain")
             return
-        if not _same(folder, self.server.folder):
+        if not _are_equal(folder, self.server.folder):
             start = f"/{self.server.folder}/"
             cookie = f"{COOKIE}={self.server.secret}; Path={start}; HttpOnly; SameSite=Strict"
             page = OPENS.format(escape(start + self.server.place))
@@ -146,9 +146,9 @@ class Handler(BaseHTTPRequestHandler):
         origin = self.headers.get("Origin")
         if origin is not None and origin.removeprefix("http://") not in self.server.hosts:
             return "this server answers its own page only"
-        if _same(folder, self.server.folder):
+        if _are_equal(folder, self.server.folder):
             cookies = [cookie.strip() for cookie in self.headers.get("Cookie", "").split(";")]
-            return "" if any(_same(cookie, f"{COOKIE}={self.server.secret}") for cookie in cookies) else CLOSED
+            return "" if any(_are_equal(cookie, f"{COOKIE}={self.server.secret}") for cookie in cookies) else CLOSED
         return "" if self.server.admits(folder) else CLOSED
 
     def _content(self, place: str, query: dict[str, str]) -> Content | None:
@@ -175,7 +175,7 @@ class Handler(BaseHTTPRequestHandler):
         """Log nothing: an address in the terminal may be one that opens the explorer."""
 
 
-def _same(a: str, b: str) -> bool:
+def _are_equal(a: str, b: str) -> bool:
     """Return whether two texts are equal, compared in constant time."""
     return hmac.compare_digest(a.encode(), b.encode())
 

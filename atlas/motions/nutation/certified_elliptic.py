@@ -357,9 +357,9 @@ def check_moments(moments: tuple[fmpq, ...]) -> None:
     if min(moments) <= 0:
         raise DomainError(f"No body has the moments of inertia {listed}: all three are positive.")
     if max(moments) * (2 - ROUNDING) > sum(moments):
-        most = nearest(sum(moments) - max(moments))
+        bound = nearest(sum(moments) - max(moments))
         raise DomainError(
-            f"No body has the moments of inertia {listed}: the largest is at most the sum of the others, {most}."
+            f"No body has the moments of inertia {listed}: the largest is at most the sum of the others, {bound}."
         )
 
 

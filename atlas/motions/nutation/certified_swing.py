@@ -70,9 +70,9 @@ class Swing:
         It is an upper bound if below MAX_HALF_ANGLE, else an estimate from eight times.
         """
         half = self.lattice.half
-        most = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
-        if most < MAX_HALF_ANGLE:
-            return most
+        bound = abs(self.kappa) * (self.width + abs(self.twist)) * half / 2
+        if bound < MAX_HALF_ANGLE:
+            return bound
         unit = 8 / self.lattice.rate if infinite(half) else half
 
         def largest_oscillation() -> arb:

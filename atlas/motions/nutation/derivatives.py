@@ -266,14 +266,14 @@ def _alike(variations: Sequence[Variation]) -> list[list[int]]:
     for i, x in enumerate(variations):
         for group in groups:
             reference = variations[group[0]]
-            same = reference.values is x.values or (
+            is_alike = reference.values is x.values or (
                 reference.form == x.form
                 and all(
                     len(row) == len(x.values[name]) and all(map(_same, row, x.values[name]))
                     for name, row in reference.values.items()
                 )
             )
-            if same:
+            if is_alike:
                 group.append(i)
                 break
         else:

@@ -294,16 +294,16 @@ def places_that_matter(
     return places_near(Y, np.unique(np.round(peaks.reshape(-1, 2), 1), axis=0), 4 * left_out / np.pi)
 
 
-def places_near(Y: NDArray[np.float64], peaks: NDArray[np.float64], most: float) -> NDArray[np.int64]:
-    """Return the integer points n (m, 2) with (n - p, Y (n - p)) below `most` for one of the peaks p (k, 2).
+def places_near(Y: NDArray[np.float64], peaks: NDArray[np.float64], max_square: float) -> NDArray[np.int64]:
+    """Return the integer points n (m, 2) with (n - p, Y (n - p)) below `max_square` for one of the peaks p (k, 2).
 
     Y (2, 2) is symmetric and positive.
     """
-    reach = np.sqrt(most / np.linalg.eigvalsh(Y)[0])
+    reach = np.sqrt(max_square / np.linalg.eigvalsh(Y)[0])
     ends = zip(np.ceil(peaks.min(axis=0) - reach), peaks.max(axis=0) + reach, strict=True)
     lines = np.meshgrid(*(np.arange(low, high) for low, high in ends), indexing="ij")
     grid = np.stack(lines, -1).reshape(-1, 2).astype(int)
     is_near = np.zeros(len(grid), bool)
     for peak in peaks:
-        is_near |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < most
+        is_near |= np.einsum("ni,ij,nj->n", grid - peak, Y, grid - peak) < max_square
     return np.asarray(grid[is_near])

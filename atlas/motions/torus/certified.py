@@ -244,9 +244,9 @@ class OnTorus:
                 row.append(rate / n)
             for row, w, k in zip(Omega, W, K, strict=True):
                 row.append(w[n] - k[n])
-        most = max(abs(x) for x in (*self.torus.W, *self.field))
-        falls = arb(2 * most * abs(t))
-        remaining = (1 + most) * (count + 1) * falls**count / (1 - falls) ** 2
+        largest = max(abs(x) for x in (*self.torus.W, *self.field))
+        falls = arb(2 * largest * abs(t))
+        remaining = (1 + largest) * (count + 1) * falls**count / (1 - falls) ** 2
         return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:

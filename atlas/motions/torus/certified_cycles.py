@@ -99,12 +99,12 @@ def action(basis: list[list[acb]], period: Period, c: fmpq, b: arb) -> arb:
     ((T_H, T_F, T_c, S),) = sums(basis, integers)
     turn = 2 * arb.pi()
     turns = ((-b * T_c.real - period.angle) / turn).unique_fmpz()
-    same = (
+    is_same_cycle = (
         abs(weights - integers[0]).max() < INTEGER_TOLERANCE
         and T_H.real.overlaps(period.H)
         and T_F.real.overlaps(period.F)
     )
-    if turns is None or not same:
+    if turns is None or not is_same_cycle:
         raise NotCertifiedError("not certified: it is not certain which cycle of the curve a period of the torus is.")
     return S.real / turn + turns * arb(c) / b
 
@@ -151,8 +151,8 @@ def _integrals(curve: Curve, rough: Curve, start: acb, stop: acb, like: acb) -> 
             numerators, r2 = forms(s)
             root, place = _root(r2) if root == 0 else _continued(forms, root, place, s), s
             terms = [total + weight * form / root for total, form in zip(terms, numerators, strict=True)]
-        for k, most in enumerate(largest):
-            remainder = arb(64) / 15 * most * arb(-2 * RATE * (len(nodes) - 1)).exp() / (1 - arb(-2 * RATE).exp())
+        for k, bound in enumerate(largest):
+            remainder = arb(64) / 15 * bound * arb(-2 * RATE * (len(nodes) - 1)).exp() / (1 - arb(-2 * RATE).exp())
             totals[k] += half * (terms[k] + acb(arb(0, remainder.upper()), arb(0, remainder.upper())))
     totals = [x * acb(0, -1) * way for x in totals]
     return totals if abs(complex_of(totals[0] - like)) < abs(complex_of(totals[0] + like)) else [-x for x in totals]
@@ -172,9 +172,9 @@ def _continued(forms: Forms, root: acb, place: acb, to: acb, halvings: int = MAX
     ``root`` is that value, and ``forms`` returns (numerators, r^2) at a place. Raises NotCertifiedError where the root
     changes too fast for so many ``halvings`` of the path.
     """
-    here = forms(place)[1]
-    if (forms(place.union(to))[1] / here).real > 0:
-        return root * (forms(to)[1] / here).sqrt()
+    square = forms(place)[1]
+    if (forms(place.union(to))[1] / square).real > 0:
+        return root * (forms(to)[1] / square).sqrt()
     if not halvings:
         raise NotCertifiedError("not certified: a root on a path of the motion's torus changes too fast.")
     middle = (place + to) / 2
@@ -193,7 +193,7 @@ def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
     ``forms`` returns (numerators, r^2); ``middle`` and ``half`` are the interval's midpoint and half its length.
     None if r may be zero there.
     """
-    most, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
+    maxima, remainder = [arb(0)] * 4, [(k / ELLIPSE_BALLS, 1 / ELLIPSE_BALLS) for k in range(ELLIPSE_BALLS)]
     long, short = (arb(RATE).exp() + arb(-RATE).exp()) / 2, (arb(RATE).exp() - arb(-RATE).exp()) / 2
     while remainder:
         place, width = remainder.pop()
@@ -205,5 +205,5 @@ def _largest(forms: Forms, middle: arb, half: arb) -> list[arb] | None:
                 return None
             remainder += [(place, width / 2), (place + width / 2, width / 2)]
             continue
-        most = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(most, numerators, strict=True)]
-    return most
+        maxima = [max(x, (abs(form) / size.sqrt()).upper()) for x, form in zip(maxima, numerators, strict=True)]
+    return maxima

@@ -164,12 +164,12 @@ class Cell:
         Row 0 is along the flow of H, row 1 along that of F/2.
         """
         S, size, beyond = self._defects()
-        most = size + HALF_TURN * abs((S - 2 * self.middle) @ self.to_v.imag).sum(axis=1)[:, None]
-        top = most.max()
+        logs = size + HALF_TURN * abs((S - 2 * self.middle) @ self.to_v.imag).sum(axis=1)[:, None]
+        top = logs.max()
         if not np.isfinite(top):
             return np.full((2, 3), np.inf)
-        matters = most.max(axis=1) > top - FAINT_LOG
-        faint = np.exp(most[~matters] - top).sum(axis=0) + np.exp(beyond - top)
+        matters = logs.max(axis=1) > top - FAINT_LOG
+        faint = np.exp(logs[~matters] - top).sum(axis=0) + np.exp(beyond - top)
         S, size = S[matters], np.exp(size[matters] - top)
         weights = np.array([complex_of(self._terms((int(P), int(Q)))[D]) for P, Q in self.places]) * np.exp(-top / 2)
         ways, twice = ((self.places - self.middle) @ self.to_v, ((S - 2 * self.middle) @ self.to_v).imag)
@@ -328,8 +328,8 @@ def _check_characteristics(theta: ThetaMotion) -> None:
         raise NotCertifiedError("not certified: the characteristics of the theta functions are not one for each axis.")
 
 
-def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
-    """Return integer points n (k, 2), at least those with (n - p, Y (n - p)) < ``most`` for a p in a parallelogram.
+def near_hull(Y: Floats, corners: Floats, max_square: float) -> NDArray[np.int64]:
+    """Return integer points n (k, 2): all with (n - p, Y (n - p)) < ``max_square`` for a p in a parallelogram, or more.
 
     Y (2, 2) is symmetric and positive. The ``corners`` (4, 2) belong to the parameters (-1, -1), (-1, 1), (1, -1),
     (1, 1) along the two sides. The result holds the points near a net in the parallelogram, so fine that each of
@@ -341,7 +341,7 @@ def near_hull(Y: Floats, corners: Floats, most: float) -> NDArray[np.int64]:
     arc = sum(length / (count - 1) for length, count in zip(lengths, steps, strict=True) if count > 1) / 2
     s, t = np.meshgrid(*(np.linspace(0, 1, count) for count in steps))
     points = corners[0] + s.reshape(-1, 1) * sides[0] + t.reshape(-1, 1) * sides[1]
-    return places_near(Y, points, (np.sqrt(most) + arc) ** 2 * (1 + 1e-9))
+    return places_near(Y, points, (np.sqrt(max_square) + arc) ** 2 * (1 + 1e-9))
 
 
 def _beyond(arc: float, narrow: float) -> float:
@@ -385,8 +385,8 @@ def _sizes(theta: ThetaMotion) -> Floats:
     |M|^2 = F + D (K, II^-1 K) <= F + D b^2/least moment, and |N|^2 = 2.
     """
     motion = theta.motion
-    K, most = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
-    M = np.sqrt(float(arb(motion.F).upper()) + most * K * K)
+    K, ratio = float(arb(motion.square).sqrt().upper()), float(arb(motion.D / min(motion.moments)).upper())
+    M = np.sqrt(float(arb(motion.F).upper()) + ratio * K * K)
     return np.array([1e-9 + MAX_DISTANCE + (1 + 1e-9) * x for x in (M, K, 2**0.5)])
 
 

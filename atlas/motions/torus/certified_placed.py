@@ -127,7 +127,7 @@ class PlacedMotion:
         if self.is_diagonal:
             return *self._body(0)[:2], arb(0), arb(0)
         size = arb(abs(rational(t, "the time")))
-        least, most, W, b = self._sizes(size)
+        smallest, largest, W, b = self._sizes(size)
         w, rate = W + b, 2 * (W + b)
         growth, bits = float((rate * size).upper()) / 0.69, LEAST_BITS
         while bits < ctx.prec + growth + 64:
@@ -138,7 +138,7 @@ class PlacedMotion:
                 "beyond what is computed; its principal moments, by --inertia I1 I2 I3, have any times."
             )
         motion, axes, distance = self._body(bits)
-        pull = distance * (most * w * (w + 2 * b) / least**2 + w * (w + 5 * b) / least)
+        pull = distance * (largest * w * (w + 2 * b) / smallest**2 + w * (w + 5 * b) / smallest)
         apart_by = pull * size * (rate * size).exp()
         return motion, axes, arb(0, apart_by.upper()), arb(0, (apart_by * size).upper())
 

@@ -318,7 +318,7 @@ def rotated(q: list[arb], V: list[arb]) -> list[arb]:
 
     V is three small balls about 0; the result, four balls, encloses all of these rotations.
     """
-    most = arb(0, sum((abs(x) for x in V), arb(0)).upper())
-    w, *vector = (x + most for x in q)  # wherever it is on the way
+    radius = arb(0, sum((abs(x) for x in V), arb(0)).upper())
+    w, *vector = (x + radius for x in q)  # wherever it is on the way
     rotated = [-dot(vector, V), *(w * x + y for x, y in zip(V, cross(vector, V), strict=True))]
     return [x + y / 2 for x, y in zip(q, rotated, strict=True)]

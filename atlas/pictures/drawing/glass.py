@@ -38,8 +38,8 @@ def distinct_forms(surfaces: Sequence[Surface]) -> tuple[list[FloatArray], list[
     forms: list[FloatArray] = []
     numbers = []
     for surface in surfaces:
-        same = (k for k, form in enumerate(forms) if np.abs(form - surface.quadric).max() <= _ON)
-        number = next(same, len(forms))
+        matches = (k for k, form in enumerate(forms) if np.abs(form - surface.quadric).max() <= _ON)
+        number = next(matches, len(forms))
         if number == len(forms):
             forms.append(surface.quadric)
         numbers.append(number)

@@ -83,9 +83,7 @@ def _before(points: FloatArray, surfaces: Sequence[Surface], towards: FloatArray
     flat = points @ plane_axes.T
     low, high = flat.min(axis=0), flat.max(axis=0)
     boxes = [_image(surface, plane_axes.tobytes()) for surface in surfaces]
-    return [
-        s for s, (least, most) in zip(surfaces, boxes, strict=True) if (least <= high).all() and (low <= most).all()
-    ]
+    return [s for s, (start, end) in zip(surfaces, boxes, strict=True) if (start <= high).all() and (low <= end).all()]
 
 
 @lru_cache(maxsize=4096)

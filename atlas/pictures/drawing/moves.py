@@ -46,8 +46,8 @@ def data(scene: Scene, style: Any = None, figures: Sequence[Figure] = ()) -> dic
     drawn.
     """
     small = narrowed(scene)
-    deep = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
-    paths = {name: path for name, path in scene.paths.items() if name in deep}
+    path_names = {layer.rides for panel in scene.panels if isinstance(panel, Space) for layer in _riders(panel)}
+    paths = {name: path for name, path in scene.paths.items() if name in path_names}
     steps = max([_PLAIN, *(_steps(path, scene.lasts) for path in paths.values())])
     with context(style):
         wide, narrow = _laid_out(scene, figures[:1]), small and _laid_out(small, figures[1:])
