@@ -108,7 +108,7 @@ def panel(
     max_swing: float,
     bar: bool,
 ) -> Plane:
-    """Return the map of one body, a `Plane`; the colour scale, up to ``max_swing`` degrees, stands beside it if ``bar``.
+    """Return the map of one body, a `Plane`; with ``bar`` the colour scale, up to ``max_swing`` degrees, is beside it.
 
     `name` is the title, `I` is I3/I2, `field` (B2, B3), `edges` are those of the cells in omega2 and omega3,
     `swing` (n, n) the amplitudes in degrees over omega3 and omega2, `ends` two such arrays, (n, n) over omega2 and

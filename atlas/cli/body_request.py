@@ -408,12 +408,12 @@ def best(words: Words) -> str:
         parameters = {
             opt: param for param in COMMANDS[name].params if isinstance(param, click.Option) for opt in param.opts
         }
-        excess = sum(
+        penalty = sum(
             2 if opt not in parameters else parameters[opt].nargs not in {len(x.values), len(x.components)}
             for opt, x in option_by_name.items()
         )
         starts = not {"--omega", "--spin"} & option_by_name.keys() if "--spin" in parameters else 0
-        return excess, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
+        return penalty, starts + sum(param.required for opt, param in parameters.items() if opt not in option_by_name)
 
     return min(COMMANDS, key=misfit)
 
