@@ -7,7 +7,7 @@ import click
 
 from atlas import files
 from atlas.cli.figure import parameters_of, setting
-from atlas.cli.options import choice, examples, out_option, several, style_option
+from atlas.cli.options import choice, examples, multiple_option, out_option, style_option
 from atlas.cli.present import bar
 from atlas.cli.typed import TypedRange
 from atlas.cli.words import Command
@@ -32,7 +32,7 @@ from atlas.cli.words import Command
     help="Parameter that changes from frame to frame, its first and last value (a number or a list a,b,c) and the "
     "number of frames, such as omega2=0:2:60. Default: the figure's time t.",
 )
-@several(
+@multiple_option(
     "set",
     "KEY=VALUE [...]",
     "Fixed parameters of the figure, such as ratio=0.5 field=1,0.1; a list is a,b,c.",

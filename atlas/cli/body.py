@@ -9,7 +9,7 @@ import click
 
 from atlas.bodies.formula_domain import check_ratio
 from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
-from atlas.cli.options import FILE, chosen_times, given, numbers, stack
+from atlas.cli.options import FILE, chosen_times, given_options, numbers, stack
 from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured, parts_of
 from atlas.errors import DomainError, nearest
@@ -144,7 +144,7 @@ def body_parameters(options: dict[str, Any]) -> dict[str, Any]:
     --points is a path as text.
     """
     names = (*BODY, "tensor", "attitude", *SIZES, "density", "field", "magnetic", "mass", "charge", "mu")
-    parameters = given(options, names)
+    parameters = given_options(options, names)
     parameters |= {"points": str(options["points"])} if "points" in parameters else {}
     return parameters | ({"units": system_of(options)} if options.get("magnetic") is not None else {})
 
@@ -167,7 +167,7 @@ def chosen_body(options: Mapping[str, Any]) -> Any:
     several are given, or when a dimension is missing or out of place; DomainError for a ratio outside (0, 2].
     """
     one_of(options, "body", (*BODY, "tensor"))
-    sizes = given(options, SIZES)
+    sizes = given_options(options, SIZES)
     if sizes and options["shape"] is None:
         raise click.UsageError(f"--{next(iter(sizes))} goes with --shape only: add --shape NAME, or leave it out.")
     if options["ratio"] is not None:
@@ -266,7 +266,7 @@ def one_of(options: Mapping[str, Any], subject: str, names: Sequence[str], remed
     `options` are the command's, by name; `subject` says what they give, as "body", in the message; `remedy` what to
     give where there is none, by default one of `names`.
     """
-    names_given = list(given(options, names))
+    names_given = list(given_options(options, names))
     if len(names_given) != 1:
         option_names = ", ".join(f"--{name}" for name in names if name in options)
         typed_options = " and ".join(f"--{name}" for name in names_given)
@@ -436,7 +436,7 @@ def check_speeds(options: Mapping[str, Any], start: Sequence[float] | None = Non
         place = f"the velocity at t = {t:g}"
     else:
         start = start or options.get("omega") or (0.0, options.get("omega2") or 0.0, options.get("spin") or 0.0)
-        sizes = {name: float(size) for name, size in given(options, SIZES).items()}
+        sizes = {name: float(size) for name, size in given_options(options, SIZES).items()}
         if shape is None:
             speed, place = fastest_of(point_masses(options["points"]).places, start), "a point of the body at t = 0"
         else:

@@ -29,11 +29,11 @@ from atlas.cli.family import (
     value_of,
     values_of,
 )
-from atlas.cli.options import given, jobs_option, out_option, stack
+from atlas.cli.options import given_options, jobs_option, out_option, stack
 from atlas.cli.points import points
 from atlas.cli.top import checks_of_top, top_units
 from atlas.cli.typed import Inclined, parts_of
-from atlas.cli.uncertain import UncertainAnswer, certain, uncertain
+from atlas.cli.uncertain import UncertainAnswer, uncertain, without_deviation
 from atlas.cli.words import OF_FIELD, SECTIONS, START, Command, Words
 from atlas.errors import AtlasError, FaultsError, unknown
 from atlas.motions.register import FAMILIES, Family
@@ -157,7 +157,7 @@ def command_of(family: Family) -> click.Command:
     ]
 
     def run(**options: Any) -> tuple["Asked", dict[str, Any]]:
-        return with_errors(asked(family, options), options)
+        return with_errors(report_request(family, options), options)
 
     summary = family.command.summary if family.command else ""
     says = summary.replace("Compute", "Report") or f"Report the {family.says}."
@@ -182,7 +182,7 @@ def _without(args: list[str], names: Collection[str]) -> list[str]:
     """
     words = Words(args)
     groups = (
-        (option.typed, *option.values[option.typed != option.name :])
+        (option.word, *option.values[option.word != option.name :])
         for option in words.options
         if option.name not in names
     )
@@ -202,7 +202,7 @@ def faults_of(
             try:
                 read()
             except (click.UsageError, AtlasError) as error:
-                yield next((f"--{name}" for name in given(options, names)), ""), error
+                yield next((f"--{name}" for name in given_options(options, names)), ""), error
 
 
 def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequence[str], Callable[[], Any]]]:
@@ -216,7 +216,7 @@ def checks_of(family: Family, options: dict[str, Any]) -> Iterator[tuple[Sequenc
     for p in family.parameters:
         if p.name in OPTIONS_OF and not family.takes("coupling"):
             of_body = p.name == "inertia" and of_any_body(family)
-            is_free = p.name == "field" and not given(options, OF_FIELD)
+            is_free = p.name == "field" and not given_options(options, OF_FIELD)
             read = partial(_checked_inertia, options) if of_body else partial(value_of, family, p, options)
             yield (*OPTIONS_OF[p.name], *(START if is_free else ())), read
 
@@ -376,7 +376,7 @@ def in_own_axes(args: list[str], parent: click.Context) -> list[str]:
             return []
         if uncertain(options):
             parent.meta[DEVIATIONS] = _deviations(FAMILIES[motion.family], options)
-            options = context.params = {name: certain(value) for name, value in options.items()}
+            options = context.params = {name: without_deviation(value) for name, value in options.items()}
             motion = motion_in_given_axes(options)
         principal = in_principal_axes(motion, "rad/s" if body.units_of(options) else "")
         if principal.family.in_given_axes and not (principal.note or options["tensor"] or options["attitude"]):
@@ -418,7 +418,7 @@ def best(words: Words) -> str:
     return min(COMMANDS, key=misfit)
 
 
-def asked(family: Family, options: dict[str, Any]) -> "Asked":
+def report_request(family: Family, options: dict[str, Any]) -> "Asked":
     """Return the request, an `Asked`, of a report from the options of its command by name.
 
     Raises FaultsError for faulty options, each in a line, and for an object that cannot be.
@@ -498,7 +498,7 @@ def typed_options_of(names: Collection[str], options: dict[str, Any]) -> dict[st
         if value is None or context.get_parameter_source(param.name) is not click.core.ParameterSource.COMMANDLINE:
             continue
         option = param.opts[0].removeprefix("--")
-        values = value.parts if isinstance(value, Inclined) else (value,)
+        values = value.strength_and_angle if isinstance(value, Inclined) else (value,)
         words_by_option |= dict(zip((option, "angle"), map(_texts, values), strict=False))
     return words_by_option
 
@@ -580,6 +580,6 @@ def _field(options: dict[str, Any]) -> dict[str, Any]:
 def _field_words(field: Any, unit: str = "") -> str:
     """Return a field as text: "strength at angle" as typed, else its components in brackets, with a unit."""
     if isinstance(field, Inclined):
-        strength, angle = (spaced(x.text) for x in field.parts)
+        strength, angle = (spaced(x.text) for x in field.strength_and_angle)
         return f"{strength}{f' {unit}' * strength[-1:].isdigit()} at {angle}"
     return f"({', '.join(f'{float(x):g}' for x in field)}) {unit}" if unit else f"({', '.join(_texts(field))})"

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from atlas.cli import body
-from atlas.cli.options import TABLE, examples, figure_option, given, json_option, numbers, stack
+from atlas.cli.options import TABLE, examples, figure_option, given_options, json_option, numbers, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.words import Command
 
@@ -58,7 +58,7 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @click.command(
     "check",
     cls=Command,
-    other=lambda words: three_moments if words.are_of_any_body else None,
+    delegate=lambda words: three_moments if words.are_of_any_body else None,
     epilog=examples(
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega2 0.7",
         "atlas check mine.csv --ratio 1.5 --field 1 2 --omega 0.3 0.7 0.2",
@@ -100,8 +100,8 @@ def command(files: tuple[Path, ...], **options: Any) -> int:
     The exit status is 1 if a column has fewer correct digits than the threshold at some time, and 2 if a file or an
     option is wrong.
     """
-    parameters = given(options, ("inertia", "omega2", "omega3", *OF_TOPS))
-    if options["inertia"] is None and given(options, body.BODY):
+    parameters = given_options(options, ("inertia", "omega2", "omega3", *OF_TOPS))
+    if options["inertia"] is None and given_options(options, body.BODY):
         parameters["ratio"] = body.chosen_body(options)
     return _graded(files, options, parameters)
 
@@ -117,7 +117,7 @@ def _graded(files: tuple[Path, ...], options: dict[str, Any], parameters: dict[s
     from atlas.checking.order import convergence
 
     parameters["omega"] = body.start_of(options, is_required=False)
-    if given(options, ("field", "magnetic")):
+    if given_options(options, ("field", "magnetic")):
         parameters["field"] = body.chosen_field(options)
     checks = tuple(check_file(file, threshold=options["threshold"], **parameters) for file in files)
     grades = convergence(checks) if options["order"] else checks[0] if len(checks) == 1 else Comparison(checks)

@@ -15,14 +15,14 @@ from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.uncertainty import mapped
 from atlas.cli import body
 from atlas.cli.axes import OWN_AXES, axes_text, motion_in_given_axes
-from atlas.cli.options import chosen_times, examples, given, numbers, output_options, stack, times_options
+from atlas.cli.options import chosen_times, examples, given_options, numbers, output_options, stack, times_options
 from atlas.cli.present import (
     NOT_ASKED,
     TABLE_DIGITS,
     Line,
     Printout,
-    along,
     answer,
+    at_times,
     certificate,
     dump,
     in_threes,
@@ -106,7 +106,7 @@ def any_motion(name: str, commands: Mapping[str, click.Command]) -> click.Comman
         params=list(params.values()),
         help=next(iter(commands.values())).help,
         epilog=examples(*lines),
-        other=lambda words: None if _is_for_all(words, params.values()) else commands[family_of(words)],
+        delegate=lambda words: None if _is_for_all(words, params.values()) else commands[family_of(words)],
     )
 
 
@@ -208,7 +208,7 @@ class Question:
         """
         try:
             motion = motion_in_given_axes(self.options) if self.family.in_given_axes else None
-            return list(along((motion or _kernel(self.family, self.options)).quaternion, self.times))
+            return list(at_times((motion or _kernel(self.family, self.options)).quaternion, self.times))
         except NotCertifiedError:
             return [None for _ in self.times]
 
@@ -492,9 +492,9 @@ def _parameters(family: Family, options: dict[str, Any]) -> dict[str, Any]:
     if family.takes("coupling") and given_otherwise(options):
         return parameters_of_top([p.name for p in family.parameters], options)
     parameters = body.body_parameters(options) if in_field(family) else {}
-    parameters |= given(options, [*(p.name for p in family.parameters if p.option), "spin"])
+    parameters |= given_options(options, [*(p.name for p in family.parameters if p.option), "spin"])
     if family.takes("c"):
-        parameters |= given(options, CHARGE) | {"units": body.system_of(options)}
+        parameters |= given_options(options, CHARGE) | {"units": body.system_of(options)}
     return parameters
 
 
@@ -586,7 +586,7 @@ def _answers(family: Family, motion: Any, times: Sequence[float], sampled: Seque
     `sampled` are the functions of time. A motion in given axes returns the momentum m itself: the record has m/I2, in
     1/time, where the family's unit is that. `motion` is the object of `family`.
     """
-    columns = {s.name: along(s.method_of(motion), times) for s in sampled}
+    columns = {s.name: at_times(s.method_of(motion), times) for s in sampled}
     placed = getattr(motion, "is_placed", False)
     I2 = getattr(motion.own.arguments.get("ratio"), "I2", 1.0) if placed else 1.0
     columns |= {s.name: columns[s.name] / I2 for s in sampled if s.name == "m" and s.unit == RATE}

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from atlas.cli.options import choice, examples, jobs_option, out_option, pair, several, style_option
+from atlas.cli.options import choice, examples, jobs_option, multiple_option, out_option, pair, style_option
 from atlas.cli.present import bar, explained, show
 from atlas.cli.typed import Typed
 from atlas.cli.words import Command
@@ -54,7 +54,7 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
 )
 @click.argument("names", nargs=-1, metavar="NAME...")
 @click.option("--all", "everything", is_flag=True, help="Draw all figures.")
-@several(
+@multiple_option(
     "set", "KEY=VALUE [...]", "Parameters of the figure, such as ratio=0.5 field=1,0.1; a list is a,b,c.", "settings"
 )
 @click.option(

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import TABLE, choice, examples, figure_option, json_option, numbers, several, stack
+from atlas.cli.options import TABLE, choice, examples, figure_option, json_option, multiple_option, numbers, stack
 from atlas.cli.present import dump, picture
 from atlas.cli.typed import REAL
 from atlas.cli.words import Command
@@ -29,8 +29,8 @@ fit_options: Callable[[Any], Any] = stack(
         "Standard error of each measured number, such as 0.01; of attitudes in radians, or with a unit, 1deg. Default: "
         "a column or line sigma of the file, else estimated.",
     ),
-    several("fix", "NAME=VALUE [...]", "Known parameters, which stay fixed, such as ratio=1.5."),
-    several("start", "NAME=VALUE [...]", "Start values of parameters, such as B3=1.1; none is needed."),
+    multiple_option("fix", "NAME=VALUE [...]", "Known parameters, which stay fixed, such as ratio=1.5."),
+    multiple_option("start", "NAME=VALUE [...]", "Start values of parameters, such as B3=1.1; none is needed."),
     numbers("epoch", "Time t at which the fitted initial velocity and attitude hold.", default="0", show_default=True),
     choice(
         "loss",
@@ -38,7 +38,7 @@ fit_options: Callable[[Any], Any] = stack(
         "linear",
         "Loss function of the residuals, as in SciPy; all but linear are robust against outliers.",
     ),
-    several(
+    multiple_option(
         "predict",
         "T [T ...]",
         "Print predictions of the measured quantity at these times, with standard errors.",

@@ -13,8 +13,8 @@ from atlas.cli.body import (
     field_options,
     units_of,
 )
-from atlas.cli.options import examples, output_options, several
-from atlas.cli.present import Line, Printout, along, answer, certificate, show
+from atlas.cli.options import examples, multiple_option, output_options
+from atlas.cli.present import Line, Printout, answer, at_times, certificate, show
 from atlas.cli.typed import REAL, exactly
 from atlas.cli.words import Command
 
@@ -32,7 +32,7 @@ COLUMNS = ("omega2", "omega3", "k", "phi", "nutation_squared")
 )
 @body_options
 @field_options
-@several("omega2", "W [W ...]", "Values of omega2, in 1/time, at which the curve is tabulated.", type=REAL)
+@multiple_option("omega2", "W [W ...]", "Values of omega2, in 1/time, at which the curve is tabulated.", type=REAL)
 @click.option(
     "--count",
     type=click.IntRange(2, 100_000),
@@ -51,8 +51,8 @@ def command(**options: Any) -> None:
 
     def floats() -> dict[str, Any]:
         curve = curve_of(options)
-        k, phi = along(curve.frequencies, points)
-        return described(curve, points, along(curve.omega3, points), k, phi, along(curve.stability, points))
+        k, phi = at_times(curve.frequencies, points)
+        return described(curve, points, at_times(curve.omega3, points), k, phi, at_times(curve.stability, points))
 
     def balls() -> dict[str, Any]:
         from atlas.motions.elementary.certified_hyperbola import Hyperbola

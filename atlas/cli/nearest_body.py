@@ -163,7 +163,7 @@ def _with_value(x: Typed, value: float, exact: Fraction | None) -> Typed:
     Its text is the fraction `exact`, or of the float if None.
     """
     exact = Fraction(value) if exact is None else exact
-    return x.moved(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
+    return x.with_value(value, text=f"{exact.numerator}/{exact.denominator}", unit="")
 
 
 def _tell(param: click.Parameter, numbers: Sequence[Typed], new: Sequence[Typed], fault: str, remedy: str) -> None:

@@ -75,7 +75,7 @@ def numbers(name: str, says: str, metavar: str = "", **settings: Any) -> Callabl
     return click.option(f"--{name}", type=REAL, help=says, **vector_settings, **settings)
 
 
-def several(name: str, metavar: str, says: str, variable: str = "", **settings: Any) -> Callable[[F], F]:
+def multiple_option(name: str, metavar: str, says: str, variable: str = "", **settings: Any) -> Callable[[F], F]:
     """Return the decorator of an option with one value or more, kept under the name `variable`, by default `name`.
 
     `metavar` and `says` are for its help, `settings` are click's. The values are a tuple, empty if it is not given.
@@ -148,7 +148,7 @@ style_option: Callable[[F], F] = click.option(
 
 
 times_options: Callable[[F], F] = stack(
-    several(
+    multiple_option(
         "times",
         "T [T ...]",
         "Times to print, such as 0 1 2.5 or START:STOP:COUNT (:log for even steps of the logarithm), in s or in the "
@@ -163,7 +163,7 @@ times_options: Callable[[F], F] = stack(
 )
 
 
-def given(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+def given_options(options: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
     """Return the options among `names` that are not None, by name; `options` are the command's."""
     return {name: options[name] for name in names if options.get(name) is not None}
 
@@ -187,7 +187,7 @@ def chosen_times(options: dict[str, Any]) -> Sequence[float]:
 
     def time(i: int) -> Typed:
         t = first_step + by * i
-        value: Typed = start.moved(t / denominator, text=f"{t}/{denominator}", unit="")
+        value: Typed = start.with_value(t / denominator, text=f"{t}/{denominator}", unit="")
         return value
 
     times = Steps(range(int(count)), time)

@@ -13,16 +13,16 @@ from atlas.cli.body_request import (
     OWN,
     PAGE,
     ByOptions,
-    asked,
     file_name,
     report_options,
+    report_request,
     typed_options_of,
 )
 from atlas.cli.fit import ahead, arguments, fit_options, fitted
 from atlas.cli.options import FILE, examples
 from atlas.cli.present import status_of
 from atlas.cli.words import Command
-from atlas.cli.your_body import build, told
+from atlas.cli.your_body import build, write_and_print
 
 if TYPE_CHECKING:
     from atlas.book.parts import Asked
@@ -66,7 +66,7 @@ def motion_of(motion: Any) -> Any:
     """Return the request, an `Asked`, of a report on a motion object of Python, along its principal axes."""
     principal = in_principal_axes(motion, fitted=True)
     with COMMANDS[principal.family.page].make_context(principal.family.name, principal.options) as context:
-        return asked(principal.family, context.params)
+        return report_request(principal.family, context.params)
 
 
 @click.group(
@@ -112,4 +112,4 @@ def make(request: "int | tuple[Asked, dict[str, Any]]") -> int:
     """
     if isinstance(request, int):
         return request
-    return told(*request, FORMATS)
+    return write_and_print(*request, FORMATS)

@@ -249,7 +249,7 @@ def _inputs(options: dict[str, Any]) -> str:
 NOT_ASKED = "Computed in doubles: no digit is proven without --digits."
 
 
-def along(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
+def at_times(method: Callable[[Any], Any], times: Sequence[float]) -> Any:
     """Return the result of a motion's `method` for all times in one call, an array of the shape (times, ...)."""
     import numpy as np
 

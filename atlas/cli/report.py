@@ -6,13 +6,13 @@ from typing import Any
 
 import click
 
-from atlas.cli.options import examples, jobs_option, out_option, pair, several, style_option
+from atlas.cli.options import examples, jobs_option, multiple_option, out_option, pair, style_option
 from atlas.cli.present import bar, dump, explain_build, status_of
 from atlas.cli.words import Command, Words
 from atlas.errors import AtlasError
 from atlas.libraries import of_sweeps
 
-set_option: Callable[[Any], Any] = several(
+set_option: Callable[[Any], Any] = multiple_option(
     "set", "NAME=VALUE [...]", "Inputs of the report; `atlas report NAME --help` lists them.", "settings"
 )
 name_argument = click.argument("name", default="atlas", metavar="[NAME|FILE.md|FILE.toml]")
@@ -62,7 +62,7 @@ def _of_your_body(words: Words) -> click.Command | None:
     "report",
     cls=Command,
     inputs_of=inputs_of,
-    other=_of_your_body,
+    delegate=_of_your_body,
     epilog=examples(
         "atlas report",
         "atlas report short_solenoid --explain",

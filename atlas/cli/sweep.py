@@ -13,7 +13,7 @@ from atlas.arithmetic.uncertainty import is_uncertain
 from atlas.cli import body
 from atlas.cli.axes import along_principal_axes, motion_in_given_axes
 from atlas.cli.family import is_short, of_rounding
-from atlas.cli.options import Place, examples, given, jobs_option_of, numbers, pair, several, stack
+from atlas.cli.options import Place, examples, given_options, jobs_option_of, multiple_option, numbers, pair, stack
 from atlas.cli.points import measured_columns
 from atlas.cli.present import bar
 from atlas.cli.typed import REAL, Typed, TypedRange, check_units
@@ -68,7 +68,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
     """Return the decorator of a sweep's argument and options; `of_body` are the decorators of body, field and start."""
     return stack(
         click.argument("family", required=False),
-        several(
+        multiple_option(
             "set",
             "NAME=VALUES [...]",
             "Values of a parameter: a number, numbers with commas, or START:STOP:COUNT (:log for even steps of the "
@@ -82,7 +82,7 @@ def options_of(*of_body: Any) -> Callable[[Any], Any]:
             type=click.Path(dir_okay=False, path_type=Path),
             help="CSV file of parameters: a heading with their names, and a row for each row of the table.",
         ),
-        several("quantity", "NAME [NAME ...]", "Quantities to compute, such as k, R11 or R.", "quantities"),
+        multiple_option("quantity", "NAME [NAME ...]", "Quantities to compute, such as k, R11 or R.", "quantities"),
         click.option(
             "--out",
             type=OUT,
@@ -209,7 +209,7 @@ def of_three_moments() -> click.Command:
     "sweep",
     cls=Command,
     carries=True,
-    other=lambda words: of_three_moments() if words.are_of_any_body else None,
+    delegate=lambda words: of_three_moments() if words.are_of_any_body else None,
     help=HELP,
     epilog=examples(
         "atlas sweep elementary --set ratio=0.1:2:500 --set B2=1 --set B3=0.2 --set omega2=-0.9:3:1000 "
@@ -288,19 +288,19 @@ def _body(options: dict[str, Any]) -> tuple[dict[str, float | Fraction], str]:
         for name, components in principal.values.items():
             values |= zip(names[name], components, strict=True)
         return values, principal.axes if principal.note else ""
-    if given(options, body.BODY):
+    if given_options(options, body.BODY):
         if has_three:
             values |= zip(("I1", "I2", "I3"), map(float, body.chosen_moments(options)), strict=True)
         else:
             chosen = body.chosen_body(options)
             values["ratio"] = float(getattr(chosen, "ratio", chosen))
     weighed = ("mass", "density") if options["shape"] is None else ()
-    if given(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
+    if given_options(options, ("field", "magnetic", "mu", "charge", "units", *weighed)):
         values |= zip(("B1", "B2", "B3")[not has_three :], map(_plain, body.chosen_field(options)), strict=True)
     start = body.start_of(options, is_required=False)
     if start is not None:
         values |= zip(("omega1", "omega2", "omega3"), map(float, start), strict=True)
-    return values | {name: float(x) for name, x in given(options, ["omega2"]).items()}, ""
+    return values | {name: float(x) for name, x in given_options(options, ["omega2"]).items()}, ""
 
 
 def _once(names: Sequence[str], source: str) -> None:

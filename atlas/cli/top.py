@@ -10,7 +10,7 @@ import click
 
 from atlas.bodies.formula_domain import check_direction, check_moments
 from atlas.cli.body import SECONDS, SIZES, F, in_one_system, one_of, size_options, start_of, units_of
-from atlas.cli.options import FILE, given, numbers, stack
+from atlas.cli.options import FILE, given_options, numbers, stack
 from atlas.cli.points import Masses, point_masses
 from atlas.cli.typed import Real
 
@@ -48,7 +48,7 @@ top_options: Callable[[F], F] = stack(
 
 def given_otherwise(options: Mapping[str, Any]) -> bool:
     """Return whether the top is given by --heavy or --magnetic, which replace its coefficients."""
-    return bool(given(options, WAYS))
+    return bool(given_options(options, WAYS))
 
 
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
@@ -90,13 +90,15 @@ def checks_of_top(options: Mapping[str, Any]) -> Iterator[tuple[Sequence[str], C
 def top_parameters(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the given options of a top's body and its forces, by name; --points as text."""
     names = (*WAYS, *BODY, *SIZES, *OF_HEAVY, *OF_CHARGED)
-    return given(options, dict.fromkeys(names)) | ({"points": str(options["points"])} if options["points"] else {})
+    return given_options(options, dict.fromkeys(names)) | (
+        {"points": str(options["points"])} if options["points"] else {}
+    )
 
 
 def parameters_of_top(names: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the typed options by name, and under "top" a dict of the computed top's attributes `names`."""
     top = chosen_top(options)
-    typed_options = top_parameters(options) | given(options, ("omega", "spin", "direction"))
+    typed_options = top_parameters(options) | given_options(options, ("omega", "spin", "direction"))
     return typed_options | {"top": {name: getattr(top, name) for name in names}}
 
 
@@ -178,7 +180,7 @@ def _body(options: Mapping[str, Any]) -> Any:
     if options["inertia"] is not None:
         return SymmetricBody(*options["inertia"])
     _needs(options, "mass", "--shape")
-    return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **given(options, SIZES))
+    return from_shape(options["shape"].replace("-", "_"), mass=options["mass"], **given_options(options, SIZES))
 
 
 def _charges(options: Mapping[str, Any], length: float | None) -> Any:
@@ -198,7 +200,7 @@ def _charges(options: Mapping[str, Any], length: float | None) -> Any:
     if options["charged"] is not None:
         return ChargeMoments(*options["charged"])
     _needs(options, "charge", "--coat")
-    coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **given(options, SIZES))
+    coat = ChargeMoments.shape(options["coat"].replace("-", "_"), options["charge"], **given_options(options, SIZES))
     return coat + ChargeMoments(Fraction(options["charge"]) * Fraction(length or 0) ** 2, 0.0)
 
 
@@ -217,11 +219,11 @@ def _needs(options: Mapping[str, Any], name: str, option: str) -> None:
 
 def _goes_with(options: Mapping[str, Any], names: Sequence[str], other_options: Sequence[str]) -> None:
     """Raise click.UsageError for a given option of `names` where none of `other_options`, which it needs, is given."""
-    if not given(options, other_options):
-        for name in given(options, names):
+    if not given_options(options, other_options):
+        for name in given_options(options, names):
             raise click.UsageError(f"--{name} goes with {' or '.join(f'--{option}' for option in other_options)}.")
 
 
 def _nothing_of(options: Mapping[str, Any], names: tuple[str, ...], way: str, option: str) -> None:
-    for name in given(options, names):
+    for name in given_options(options, names):
         raise click.UsageError(f"--{name} goes with {way}, not with {option}.")

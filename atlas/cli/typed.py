@@ -72,7 +72,7 @@ class Typed(float):
         number.text, number.unit, number.exact = text, unit, exact
         return number
 
-    def moved(self, value: float, **attributes: Any) -> Self:
+    def with_value(self, value: float, **attributes: Any) -> Self:
         """Return a copy with another value; `attributes` replace some of its text, sigma, unit and exact."""
         number = float.__new__(type(self), value)
         vars(number).update(vars(self) | attributes)
@@ -201,7 +201,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
                 x = math.copysign(10.0 ** (low + (high - low) * i / last_place), start)
             else:
                 x = (first_numerator + i * step) / denominator
-            return Typed(f"{x!r}{unit}", name, self.place) if unit else start.moved(x, text=repr(x))
+            return Typed(f"{x!r}{unit}", name, self.place) if unit else start.with_value(x, text=repr(x))
 
         return Steps(places, number)
 
@@ -236,10 +236,10 @@ REAL = Real()
 class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
     """Components (across, along) of a field at an angle to the axis, each rounded once; a tuple.
 
-    `parts` are (strength, angle in rad) as typed.
+    `strength_and_angle` are (strength, angle in rad) as typed.
     """
 
-    parts: tuple[Typed, Typed]
+    strength_and_angle: tuple[Typed, Typed]
 
     def __new__(cls, strength_and_angle: tuple[Typed, Typed], unit: str = "") -> Self:
         """Return (strength sin(angle), strength cos(angle)), each rounded once; an angle in degrees is taken exactly.
@@ -259,8 +259,8 @@ class Inclined(tuple[Typed, ...]):  # noqa: SLOT001  it has its parts
                 for x in (arb(float(angle)).sin_cos() if turn is None else arb.sin_cos_pi_fmpq(turn))
             ]
         )
-        new = super().__new__(cls, [size.moved(x, sigma=0.0, text=f"{x!r}{unit}") for x in components])
-        new.parts = strength_and_angle
+        new = super().__new__(cls, [size.with_value(x, sigma=0.0, text=f"{x!r}{unit}") for x in components])
+        new.strength_and_angle = strength_and_angle
         return new
 
 

@@ -71,11 +71,11 @@ def uncertain(options: Mapping[str, Any]) -> list[tuple[str, int, Typed]]:
     return [(name, i, x) for name, numbers in values for i, x in enumerate(numbers) if getattr(x, "sigma", 0.0)]
 
 
-def certain(value: Any) -> Any:
+def without_deviation(value: Any) -> Any:
     """Return the value of an option, a number or a tuple, with all standard deviations set to 0."""
     if isinstance(value, tuple):
-        return type(value)(map(certain, value))
-    return value.moved(float(value), sigma=0.0) if getattr(value, "sigma", 0.0) else value
+        return type(value)(map(without_deviation, value))
+    return value.with_value(float(value), sigma=0.0) if getattr(value, "sigma", 0.0) else value
 
 
 def _typed_numbers(value: Any) -> tuple[Any, ...]:
@@ -90,6 +90,6 @@ def _moved_options(options: dict[str, Any], inputs: list[tuple[str, int, Typed]]
     """
     new_options = dict(options)
     for (name, i, x), step in zip(inputs, steps, strict=True):
-        new, numbers = x.moved(x + step * x.sigma), _typed_numbers(before := new_options[name])
+        new, numbers = x.with_value(x + step * x.sigma), _typed_numbers(before := new_options[name])
         new_options[name] = type(before)((*numbers[:i], new, *numbers[i + 1 :])) if isinstance(before, tuple) else new
     return new_options

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import click
 from click.core import augment_usage_errors
 
-from atlas.cli.options import given
+from atlas.cli.options import given_options
 from atlas.cli.typed import LIKE_A_NUMBER, NUMBER, REAL, Inclined, Typed, check_units, joined, parts_of
 from atlas.measured import RATE, WANTED
 
@@ -57,17 +57,17 @@ SECTIONS = {
 class Option(NamedTuple):
     """An option as typed, such as --field=1 2, its name --field, and its values ["1", "2"]."""
 
-    typed: str
+    word: str
     name: str
     values: list[str]
 
     @property
     def components(self) -> list[str]:
         """Values of the option, words, in one list; a vector in one word, such as 1,2, as its components."""
-        return [component for word in self.values for component in apart(word)]
+        return [component for word in self.values for component in components_of(word)]
 
 
-def apart(word: str) -> list[str]:
+def components_of(word: str) -> list[str]:
     """Return the components of a vector in one word, 1,2 or (1, 2); of any other word the word itself, in a list."""
     return [x.strip() for x in (word[1:-1] if word[:1] in {"(", "["} else word).split(",")]
 
@@ -143,7 +143,7 @@ class Command(click.Command):
 
     Attributes
     ----------
-    other : callable
+    delegate : callable
         Returns the command to which words belong, None where it is this one.
     carries : bool
         Whether uncertainties of numbers go on to the results.
@@ -154,22 +154,22 @@ class Command(click.Command):
     def __init__(
         self,
         *args: Any,
-        other: Callable[[Words], click.Command | None] = lambda _: None,
+        delegate: Callable[[Words], click.Command | None] = lambda _: None,
         carries: bool = False,
         inputs_of: Callable[[str], tuple[str, list[tuple[str, str]]]] | None = None,
         **settings: Any,
     ) -> None:
         super().__init__(*args, **settings)
-        self.other, self.carries, self.inputs_of = other, carries, inputs_of
+        self.delegate, self.carries, self.inputs_of = delegate, carries, inputs_of
 
     def make_context(
         self, info_name: str | None, args: list[str], parent: click.Context | None = None, **extra: Any
     ) -> click.Context:
-        """Return click's context for the words, of the command that `other` returns for them, else of this one.
+        """Return click's context for the words, of the command that `delegate` returns for them, else of this one.
 
         The parameters are click's.
         """
-        command = self.other(Words(args))
+        command = self.delegate(Words(args))
         return (command.make_context if command else super().make_context)(info_name, args, parent, **extra)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -234,7 +234,7 @@ def inclined_field(options: Mapping[str, Any]) -> dict[str, Any]:
 
 def zero_field(options: Mapping[str, Any], size: int) -> dict[str, Any]:
     """Return {"field": `size` zeros} where the options give a start without a field, a free body; else {}."""
-    is_free = given(options, START) and not given(options, OF_FIELD)
+    is_free = given_options(options, START) and not given_options(options, OF_FIELD)
     return {"field": (Typed("0"),) * size} if is_free else {}
 
 
@@ -264,7 +264,7 @@ class Reader:
         with augment_usage_errors(self.ctx):
             for option in words.options:
                 if option.name not in {*self.options_by_name, "--"}:
-                    raise self._unknown(option.typed.partition("=")[0])
+                    raise self._unknown(option.word.partition("=")[0])
             for option in words.options:
                 if option.name == "--":
                     loose += option.values
@@ -294,7 +294,7 @@ class Reader:
         option without a value, and for a flag with one.
         """
         if param.is_flag:
-            if option.typed != option.name:
+            if option.word != option.name:
                 raise click.BadOptionUsage(option.name, f"Option {option.name!r} does not take a value.")
             return True, option.values
         if param.nargs > 1:
@@ -334,9 +334,10 @@ class Reader:
         """
         components, words = list[str](), list(option.values)
         while words and (
-            not self.arguments or all(is_number(x, is_wanted=len(components) < param.nargs) for x in apart(words[0]))
+            not self.arguments
+            or all(is_number(x, is_wanted=len(components) < param.nargs) for x in components_of(words[0]))
         ):
-            components += apart(words.pop(0))
+            components += components_of(words.pop(0))
         if param.name == "inertia" and {len(components), param.nargs} == {2, 3}:
             if param.nargs == 2:
                 raise click.UsageError(

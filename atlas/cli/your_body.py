@@ -217,10 +217,10 @@ def command() -> None:
 @command.result_callback()
 def make(request: "tuple[Asked, dict[str, Any]]") -> int:
     """Write a report, of (request, options), and print its files' paths; return the status, 1 if a figure failed."""
-    return told(*request, FORMATS)
+    return write_and_print(*request, FORMATS)
 
 
-def told(request: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
+def write_and_print(request: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
     """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0.
 
     `options` are the command's, by name, of which folder, processes and --explain are used.
