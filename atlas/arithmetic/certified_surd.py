@@ -40,33 +40,33 @@ class Surd:
         """Return a rational number as a `Surd` with b = 0 and N = 1."""
         return cls(x, fmpq(0), fmpq(1))
 
-    def of(self, x: "Surd | fmpq | int") -> "Surd":
+    def lift(self, x: "Surd | fmpq | int") -> "Surd":
         """Return a number as a `Surd` with the root sqrt(N) of this one; a `Surd` unchanged."""
         return x if isinstance(x, Surd) else Surd(fmpq(x), fmpq(0), self.N)
 
     def __add__(self, addend: "Surd | fmpq | int") -> "Surd":
-        x = self.of(addend)
+        x = self.lift(addend)
         return Surd(self.a + x.a, self.b + x.b, self.N)
 
     def __neg__(self) -> "Surd":
         return Surd(-self.a, -self.b, self.N)
 
     def __sub__(self, subtrahend: "Surd | fmpq | int") -> "Surd":
-        return self + (-self.of(subtrahend))
+        return self + (-self.lift(subtrahend))
 
     def __mul__(self, factor: "Surd | fmpq | int") -> "Surd":
-        x = self.of(factor)
+        x = self.lift(factor)
         return Surd(self.a * x.a + self.b * x.b * self.N, self.a * x.b + self.b * x.a, self.N)
 
     def __truediv__(self, divisor: "Surd | fmpq | int") -> "Surd":
-        x = self.of(divisor)
+        x = self.lift(divisor)
         norm = x.a * x.a - x.b * x.b * self.N
         return self * Surd(x.a / norm, -x.b / norm, self.N)
 
     __radd__, __rmul__ = __add__, __mul__
 
     def __rsub__(self, minuend: "Surd | fmpq | int") -> "Surd":
-        return self.of(minuend) - self
+        return self.lift(minuend) - self
 
     @property
     def sign(self) -> int:
@@ -97,7 +97,7 @@ class Surd:
 
 def evaluated(p: Polynomial, x: Surd) -> Surd:
     """Return p(x) as a `Surd`; ``p`` has the coefficients with the lowest power first."""
-    value = x.of(0)
+    value = x.lift(0)
     for c in reversed(p):
         value = value * x + c
     return value
@@ -198,7 +198,7 @@ def _ball(x: Surd) -> arb:
 
 def divided(p: Polynomial, q: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return (quotient, remainder) of the polynomials p/q; q is not zero, () stands for zero."""
-    remainder, quotient = list(p), [q[0].of(0)] * max(len(p) - len(q) + 1, 0)
+    remainder, quotient = list(p), [q[0].lift(0)] * max(len(p) - len(q) + 1, 0)
     for n in range(len(p) - len(q), -1, -1):
         factor = remainder[n + len(q) - 1] / q[-1]
         quotient[n] = factor
@@ -216,7 +216,7 @@ def gcd(p: Polynomial, q: Polynomial) -> Polynomial:
 
 def _minus(p: Polynomial, q: Polynomial) -> Polynomial:
     """Return the difference p - q of polynomials, not both zero; () if they are equal."""
-    zero = (p or q)[0].of(0)
+    zero = (p or q)[0].lift(0)
     size = max(len(p), len(q))
     first_coefficient, second = ([*x, *[zero] * (size - len(x))] for x in (p, q))
     return trimmed([x - y for x, y in zip(first_coefficient, second, strict=True)])

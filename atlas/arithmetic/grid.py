@@ -70,14 +70,14 @@ class Progression:
         below 1 and 3 w above, cos within 3 w + 3.5 w + 0.5 w, and sin, for which u counts little near 1, within 5
         w.
         """
-        head, remainder, sign, half = self.parts(i, work)
+        head, remainder, sign, half = self.reduced(i, work)
         np.add(head, remainder, out=half)
         if self.refined:
             head -= half
             head += remainder
         circle_of(half, head if self.refined else None, sign, remainder, cos, sin, versine)
 
-    def parts(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def reduced(self, i: FloatArray, work: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return four arrays (n, m): x/2 for x = f t less whole half turns, as head and rest in rad, signs, a spare.
 
         A sign is 1.0 for an even number of half turns left out, -1.0 for an odd one. The arrays lie in ``work``
@@ -198,7 +198,7 @@ def fine_tables(turning: DoubleRotation, step: float, sides: Sequence[bool]) -> 
     below 2^-20.
     """
     phases = Progression(turning.turns, 0.0, step, 0, FINE_TIMES)
-    head, remainder, sign, _ = phases.parts(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
+    head, remainder, sign, _ = phases.reduced(RAMP[:, ORIGIN : ORIGIN + FINE_TIMES], room(2, FINE_TIMES))
     x = head.astype(np.longdouble) + remainder
     sine, cosine = np.sin(x), np.cos(x)
     versine = 2 * sine * sine

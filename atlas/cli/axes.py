@@ -82,7 +82,7 @@ def along_principal_axes(motion: Any, unit: str = "") -> Principal:
 
     start = start_of(**motion.arguments)
     axes = start.body.axes
-    field, omega = start.along(axes)
+    field, omega = start.components_along(axes)
     arguments = {"inertia": start.moments, "field": tuple(field), "omega": tuple(omega)}
     return _principal(FAMILIES["asymmetric"], arguments, axes, unit)
 

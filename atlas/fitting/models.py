@@ -13,7 +13,7 @@ from atlas.errors import AtlasError
 from atlas.fitting.data import STEP, left_jacobian
 from atlas.fitting.flow import Flow
 from atlas.motions.any_body import motion as of_any
-from atlas.motions.derivatives import of as derivatives
+from atlas.motions.derivatives import derivatives
 from atlas.motions.elementary.kernel import ElementaryMotion
 from atlas.motions.nutation.kernel_elliptic import EllipticMotion
 from atlas.motions.nutation.kernel_general import GeneralMotion

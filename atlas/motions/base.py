@@ -96,15 +96,15 @@ class Motion(Shown, Generic[Single]):
     def __init__(self, make: Callable[..., Single], *inputs: Any) -> None:
         shape = common_shape(*(getattr(x, "shape", ()) for x in inputs))
         singles: dict[int, Single] = {}
-        self._make, self._inputs, self._made, self.shape = make, inputs, singles, shape
+        self._make, self._inputs, self._singles, self.shape = make, inputs, singles, shape
 
     def _single(self, i: int = 0) -> Single:
         """Return the evaluator of the i-th motion alone, cached; the index i counts the flattened array."""
-        single = self._made.get(i)
+        single = self._singles.get(i)
         if single is None:
-            if len(self._made) >= MOTION_CACHE_SIZE:
-                self._made.clear()
-            single = self._made.setdefault(i, self._make(*self._row(i)))
+            if len(self._singles) >= MOTION_CACHE_SIZE:
+                self._singles.clear()
+            single = self._singles.setdefault(i, self._make(*self._row(i)))
         return single
 
     def _row(self, i: int = 0) -> list[Any]:
@@ -170,7 +170,7 @@ class Motion(Shown, Generic[Single]):
         if self._placement is None:
             return None
         unplaced = type(self)(**self._placement.arguments)
-        unplaced._made = self._made  # noqa: SLF001  of this class
+        unplaced._singles = self._singles  # noqa: SLF001  of this class
         return unplaced
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -510,7 +510,7 @@ class Motion(Shown, Generic[Single]):
         differentiated, in some seconds. In a field below a thousandth of the angular velocity the errors of field
         derivatives grow; above 1e-9 such derivatives are refused.
         """
-        from atlas.motions.derivatives import of as derivatives
+        from atlas.motions.derivatives import derivatives
 
         return derivatives(self, t, names, of)
 

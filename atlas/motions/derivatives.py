@@ -20,7 +20,7 @@ from atlas.arithmetic.words import floats
 from atlas.errors import AtlasError, DomainError
 
 VECTORS = ("rotation", "angular_velocity", "field")
-"""Quantities of `of` that are functions of time."""
+"""Quantities of `derivatives` that are functions of time."""
 
 MAX_UPRIGHT_ANGLE = 1e-3
 """Angle of a top's axis with n from which its inputs have derivatives in all components of n."""
@@ -43,7 +43,7 @@ class Moved(NamedTuple):
     spin: float = 0.0
 
 
-def of(motion: Any, t: Any, names: Any, quantity: str, *, certified: bool = True) -> FloatArray:
+def derivatives(motion: Any, t: Any, names: Any, quantity: str, *, certified: bool = True) -> FloatArray:
     """Return derivatives of a ``quantity`` of ``motion``, one or an array, in ``names``; see `Motion.sensitivity`.
 
     The shape is (..., names, 3) for vectors at times t, (..., names) for a scalar. Without `certified` eight digits are
@@ -69,7 +69,7 @@ def of_rounding(motion: Any, t: Any) -> FloatArray:
     """Return the bound of `Motion.input_error`, angles in rad in an array of the shape of ``motion`` and times t."""
     probe = _singles(motion)
     names = list(probe[0].rounded) if probe else []
-    v = of(motion, t, names, "rotation")
+    v = derivatives(motion, t, names, "rotation")
     halves = np.array([[x.rounded[name] for name in names] for x in probe]).reshape(*motion.shape, len(names))
     return np.asarray((np.sqrt((v * v).sum(-1)) * halves).sum(-1))
 
@@ -194,7 +194,7 @@ class SingleMotion:
     def vectors(self, t: FloatArray, names: Sequence[str], quantity: str, *, certified: bool) -> FloatArray:
         """Return derivatives of a vector ``quantity`` at times t (m,) in ``names``, shape (m, len(names), 3).
 
-        See `Motion.sensitivity` for the quantities, `of` for ``certified``. Raises DomainError for rates beyond
+        See `Motion.sensitivity` for the quantities, `derivatives` for ``certified``. Raises DomainError for rates beyond
         `MAX_RATE`.
         """
         faster, inverse = quantity == "angular_velocity", "larmor" in self.inputs.names

@@ -67,7 +67,7 @@ class Start:
         R = self.R
         self.shape = common_shape(body.moments.shape[:-1], R.shape[:-2], *(np.shape(x) for x in (*B, *w)))
 
-    def along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
+    def components_along(self, axes: FloatArray) -> tuple[list[Any], list[Any]]:
         """Return (field, angular velocity) at t = 0, three components each, along ``axes`` (..., 3, 3), rows.
 
         The rows are axes in the body. Components are not rounded: floats, arrays or `Given`.
@@ -84,7 +84,7 @@ class Start:
         """The three principal moments, without rounding, along the body's principal axes; 1, 1, I for a ratio I."""
         exact = self.body.exact
         if exact is None or isinstance(exact, tuple):
-            return exact or parts(self.body.moments)
+            return exact or three_components(self.body.moments)
         I2, I3 = exact_moments(exact)
         return I2, I2, I3
 
@@ -113,12 +113,16 @@ class Start:
         """
         I = self.body.moments
         if self.body.exact is not None:
-            return self.body.exact, np.broadcast_to(self.body.axes, (*I.shape, 3)), *self.along(self.body.axes)
+            return (
+                self.body.exact,
+                np.broadcast_to(self.body.axes, (*I.shape, 3)),
+                *self.components_along(self.body.axes),
+            )
         third = np.where(I[..., 0] == I[..., 1], 2, np.where(I[..., 1] == I[..., 2], 0, 1))
         order = (third[..., None] + np.array([1, 2, 3])) % 3
         axes = np.take_along_axis(np.broadcast_to(self.body.axes, (*I.shape, 3)), order[..., None], axis=-2)
         I2, I3 = (plain(np.take_along_axis(I, order[..., i : i + 1], axis=-1)[..., 0]) for i in (0, 2))
-        return I3 if np.all(I2 == 1) else SymmetricBody(I2, I3), axes, *self.along(axes)
+        return I3 if np.all(I2 == 1) else SymmetricBody(I2, I3), axes, *self.components_along(axes)
 
     @property
     def has_field(self) -> bool:
@@ -173,7 +177,7 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
         raise DomainError(f"This start gives no {family.__name__}: atlas.motion finds the class that fits.")
     motion, axes = motion_and_axes
     if omega is None:
-        start.w, start.outside = list(parts(np.asarray(motion.angular_velocity(0.0)) @ axes)), False
+        start.w, start.outside = list(three_components(np.asarray(motion.angular_velocity(0.0)) @ axes)), False
     arguments = {
         "body": body, "field": argument(field, B), "attitude": attitude,
         "omega_laboratory": None if omega is None else argument(omega, w), **parameters,
@@ -181,7 +185,7 @@ def in_laboratory(family: Any, body: Any, field: Any, attitude: Any, omega: Any,
     return start.place(motion, axes, family.in_laboratory, arguments, f"{family.__name__}.in_laboratory")
 
 
-def across(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
+def turn_onto_e2(K1: fmpq, K2: fmpq) -> tuple[fmpq, FloatArray]:
     """Return (component along e2, rotation matrix (3, 3) about e3) that turns the vector (K1, K2) onto e2.
 
     The component is sqrt(K1^2 + K2^2). Where K1 = 0 already, it is K2 with its sign and the matrix is the unit matrix.
@@ -307,7 +311,7 @@ def of_moments(moments: Any, axes: FloatArray) -> Body:
     return Body(rows, axes, tensor, unrounded)
 
 
-def parts(v: FloatArray) -> tuple[Any, Any, Any]:
+def three_components(v: FloatArray) -> tuple[Any, Any, Any]:
     """Return the three components of vectors v (..., 3): floats, or arrays (...)."""
     return plain(v[..., 0]), plain(v[..., 1]), plain(v[..., 2])
 
@@ -322,7 +326,7 @@ def columns(value: Any, name: str, letter: str) -> list[Any]:
     if isinstance(value, tuple) or listed or hasattr(value, "exact"):
         names = [f"{letter}{i}" for i in (1, 2, 3)]
         return [*map(as_given, components(value, names, name, RATE))]
-    return list(parts(vectors(value, name, RATE)))
+    return list(three_components(vectors(value, name, RATE)))
 
 
 def joined_columns(v: list[Any]) -> FloatArray:

@@ -54,7 +54,7 @@ class TopQuadric(Quadric):
     @property
     def _excess(self) -> Surd:
         """Product n3 D, a `Surd`; its sign with that of n3 tells the kind."""
-        return self.top[3].of(top.excess(*self.top))
+        return self.top[3].lift(top.excess(*self.top))
 
     @property
     def kind(self) -> str:
@@ -76,8 +76,8 @@ class TopQuadric(Quadric):
         """
         I, k2, k3, n2, n3, a0, A0 = self.top
         check_D(self.B3, a0)
-        unit = n3.of(1)
-        return (unit.of(top.excess(I, k2, k3, n2, unit, a0, A0)) if n3.is_zero else self._excess / n3).value
+        unit = n3.lift(1)
+        return (unit.lift(top.excess(I, k2, k3, n2, unit, a0, A0)) if n3.is_zero else self._excess / n3).value
 
     @property
     def semi_axes(self) -> tuple[Real, Real, Real]:
@@ -101,7 +101,7 @@ class TopQuadric(Quadric):
 
         Floats are taken as exact. Raises AtlasError for anything but three finite numbers.
         """
-        residual: Surd = top.residual(*self.top, *map(self.top[3].of, rationals(omega, "omega", 3)))
+        residual: Surd = top.residual(*self.top, *map(self.top[3].lift, rationals(omega, "omega", 3)))
         return residual.value
 
     def canonical(self, omega: Any) -> list[Real]:
@@ -184,7 +184,7 @@ class TopHyperbola:
         point. The pole may lie inside. [] where all motions are stable.
         """
         I, k2, k3, n2, *_ = self.top
-        quartic, x = self._quartic, (n2.of(k3 / I - k2), n2.of(1))
+        quartic, x = self._quartic, (n2.lift(k3 / I - k2), n2.lift(1))
         if top.excess(*self.top).is_zero:  # two lines: of w = 0 nothing is left
             quartic = divided(divided(quartic, x)[0], x)[0]
         ends = []
@@ -205,7 +205,7 @@ class TopHyperbola:
         """
         I, k2, k3, _, n3, a0, _ = self.top
         kappa, A = k2 - k3 / I, self._leading
-        force, unit = n3 * A + a0, n3.of(1)
+        force, unit = n3 * A + a0, n3.lift(1)
         level = (unit - 3 * n3 * n3) * A - 2 * n3 * a0
         # x^2 (u^2 + level) - 2 n3 kappa x (n3 u^2 + force) + (kappa n3 u + force)^2, x = u - kappa
         square = kappa * kappa
@@ -214,7 +214,7 @@ class TopHyperbola:
 
     def _off_the_pole(self, omega2: Any) -> Surd:
         n2 = self.top[3]
-        w2 = n2.of(rational(omega2, "omega2"))
+        w2 = n2.lift(rational(omega2, "omega2"))
         if (w2 - top.centre(*self.top)[0]).is_zero:
             raise DomainError("omega2 = -n2 k3/I3 is the pole of omega3(omega2).")
         return w2

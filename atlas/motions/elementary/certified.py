@@ -179,4 +179,4 @@ class FreeMotion(DoubleTurn):
     @property
     def _turning(self) -> tuple[Sequence[fmpq], Real, fmpq]:
         """Tuple (angular momentum over I2, three components, k, phi), rates in rad/time."""
-        return elementary.free(fmpq(1), self.I, *self.omega)
+        return elementary.axis_and_rates(fmpq(1), self.I, *self.omega)

@@ -82,7 +82,7 @@ class ClosedMotion(ElementaryMotion):
         self.arguments = {"ratio": kept_ratio(ratio, I3), "field": (B2, B3), "p": p, "q": q}
         self._closed = Closed(*inputs)
         self._inputs = (I2, I3, B2, B3, self._closed.omega2, None)
-        self._made = {0: self._closed}  # type: ignore[dict-item]  # it has all that one elementary motion has
+        self._singles = {0: self._closed}  # type: ignore[dict-item]  # it has all that one elementary motion has
 
     @property
     def omega2(self) -> float:

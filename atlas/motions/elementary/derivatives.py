@@ -137,7 +137,7 @@ def of_free(motion: Any, i: int) -> Inputs:
     J = np.array([1.0, 1.0, nearest(I3 / I2)])
     return Inputs(
         ("ratio", "omega1", "omega2", "omega3"), (I3 / I2, *omega), (I3 / I2, *[size_of(*omega)] * 3),
-        lambda ratio, *w: AxisAndRates(*elementary.free(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0),
+        lambda ratio, *w: AxisAndRates(*elementary.axis_and_rates(fmpq(1), ratio, *w)), TURNS | FREE, (J, J, 0.0, 0.0),
         np.zeros(3), {},
     )  # fmt: skip
 

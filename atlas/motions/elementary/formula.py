@@ -66,7 +66,7 @@ def quotient(I2: Number, I3: Number, B2: Number, B3: Number, omega2: Number) -> 
     return I2 * omega2 * B3 / (I3 * B2)
 
 
-def free(I2: Number, I3: Number, *omega: Number) -> tuple[Vector, Number, Number]:
+def axis_and_rates(I2: Number, I3: Number, *omega: Number) -> tuple[Vector, Number, Number]:
     """Return (m/I2, three components, k, phi) of a free body, all in rad/time, k = |m|/I2.
 
     ``omega`` are the three components of Omega(0).

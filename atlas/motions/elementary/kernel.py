@@ -35,8 +35,8 @@ from atlas.bodies.formula_integrals import NAMES
 from atlas.bodies.integrals import integrals, shape_factors
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.base import DoubleTurn
-from atlas.motions.elementary.formula import conserved, constants, free, quotient, scalars, turning
-from atlas.motions.start import Start, across
+from atlas.motions.elementary.formula import axis_and_rates, conserved, constants, quotient, scalars, turning
+from atlas.motions.start import Start, turn_onto_e2
 
 
 class Elementary(DoubleRotation):
@@ -266,14 +266,14 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         body, axes, K, w = start.symmetric
         if omega2 is not None:
             K1, K2, K3 = exact(*K)
-            size, turn = across(K1, K2)
+            size, turn = turn_onto_e2(K1, K2)
             return cls(body, (exact_number(size), exact_number(K3)), omega2, omega3), turn @ axes
         if start.shape or not start.has_field:
             return None
         K1, K2, K3, w1, w2, w3 = exact(*K, *w)
         if w1 * K2 != w2 * K1 or not standing(*exact_moments(body), K1, K2, K3, w1, w2, w3).exact.is_steady:
             return None
-        size, turn = across(K1, K2)
+        size, turn = turn_onto_e2(K1, K2)
         square = K1 * K1 + K2 * K2
         omega_along = exact_number((w1 * K1 + w2 * K2) / square * size if square != 0 else w2)
         for third in (None, exact_number(w3)):
@@ -419,7 +419,7 @@ class Free(DoubleRotation):
     def __init__(self, I2: Any, I3: Any, *omega: Any) -> None:
         self.vectors = {"Omega": tuple(floats(exact(*omega)).tolist())}
         with workprec():
-            momentum, k, phi = free(*exact(I2, I3, *omega))
+            momentum, k, phi = axis_and_rates(*exact(I2, I3, *omega))
             axis = direction(momentum)
         super().__init__(axis, k, phi)
 
@@ -465,12 +465,12 @@ class FreeMotion(DoubleTurn[Free]):
     @kept
     def k(self) -> FloatOrArray:
         """Frequency of precession about m, k = |m|/I2, above (87), in rad/time."""
-        return over(lambda *inputs: free(*inputs)[1], *self._inputs, unit=self._frequencies)
+        return over(lambda *inputs: axis_and_rates(*inputs)[1], *self._inputs, unit=self._frequencies)
 
     @kept
     def phi(self) -> FloatOrArray:
         """Frequency of proper rotation phi = (1 - I) omega3, (87), in rad/time."""
-        return over(lambda *inputs: free(*inputs)[2], *self._inputs, unit=self._frequencies)
+        return over(lambda *inputs: axis_and_rates(*inputs)[2], *self._inputs, unit=self._frequencies)
 
     @property
     def precession_rate(self) -> FloatOrArray:
@@ -563,7 +563,7 @@ class FreeMotion(DoubleTurn[Free]):
         return of_free(self, i)
 
     def _groups(self) -> list[Group]:
-        return [(free, slice(None), self._inputs)]
+        return [(axis_and_rates, slice(None), self._inputs)]
 
     def _vectors(self) -> dict[str, Any]:
         return {"Omega": self.omega}

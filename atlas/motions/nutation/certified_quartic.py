@@ -199,7 +199,7 @@ class TopQuartic(Quartic):
         self.linear = linear
         self.a = self.M3 * self.kappa + linear
         self.A = k3 * k3 / I - k2 * k2 + quadratic
-        p, M3, a, A = self.p, self.M3, self.a, self.nu.of(self.A)
+        p, M3, a, A = self.p, self.M3, self.a, self.nu.lift(self.A)
         h2 = M2 * M2 + w1 * w1 + 2 * a * self.nu + self.nu * self.nu * A
         self.polynomial = trimmed([h2 - p * p, 2 * a - 2 * p * M3, -A - h2 - M3 * M3, -2 * a, A])
 

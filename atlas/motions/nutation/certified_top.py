@@ -153,7 +153,7 @@ class TopMotion(Nutating):
         q, (_, w2, w3) = self.quartic, self.omega
         if q.transverse.is_zero:
             return fmpq(0), w3
-        return (q.transverse.of(w2) / q.transverse).value, (q.transverse.of(w3) - q.nu * w2 / q.transverse).value
+        return (q.transverse.lift(w2) / q.transverse).value, (q.transverse.lift(w3) - q.nu * w2 / q.transverse).value
 
     @property
     def roots(self) -> list[acb]:

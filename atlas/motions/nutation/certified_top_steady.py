@@ -44,7 +44,7 @@ def steady_precessions(q: TopQuartic, precession: fmpq) -> list[SteadyPrecession
             return []
         # w = (M3 -+ sqrt(d))/(2 nu): the root that does not cancel first in w, then the other one
         half, side = M3 / (2 * nu), 1 if (M3.sign or 1) * nu.sign > 0 else -1
-        step = nu.of(1) / (2 * nu)
+        step = nu.lift(1) / (2 * nu)
         precessions = [(half, step * s, d) for s in (-nu.sign * side, nu.sign * side)][: 2 if d.sign else 1]
     rates = []
     for x, y, d in precessions:

@@ -184,7 +184,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         ``parameters`` are z and branch.
         """
         axes = start.body.axes
-        return cls(start.moments, tuple(start.along(axes)[0]), **parameters), axes
+        return cls(start.moments, tuple(start.components_along(axes)[0]), **parameters), axes
 
     def _inputs_of(self, i: int) -> Any:
         """Return the `Inputs` of the i-th motion, see `of_elliptic`."""

@@ -359,7 +359,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
 
         ``parameters`` are the coupling and the potential; the field of the start is n.
         """
-        n, w = start.along(np.eye(3))
+        n, w = start.components_along(np.eye(3))
         axes: FloatArray = np.eye(3)
         if np.any(n[0]):
             n2, n3, w1, w2, w3, c, s = given(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)

@@ -183,11 +183,11 @@ class Blocks:
 
     def __iter__(self) -> Iterator[Block]:
         if self.count > BLOCK:
-            return self.each()
-        self._cached_blocks = self._cached_blocks or [*self.each()]
+            return self.batches()
+        self._cached_blocks = self._cached_blocks or [*self.batches()]
         return iter(self._cached_blocks)
 
-    def each(self) -> Iterator[Block]:
+    def batches(self) -> Iterator[Block]:
         """Yield the blocks of motions, in order."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for rows, _, exponents, (roots,) in blocks(self._roots, columns, self.shape, self._unit, bound=1.0):
@@ -212,7 +212,7 @@ class TopBlocks(Blocks):
     The inputs broadcast to a shape.
     """
 
-    def each(self) -> Iterator[Block]:
+    def batches(self) -> Iterator[Block]:
         """Yield the blocks of tops, in order, their inputs divided by powers of two."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):

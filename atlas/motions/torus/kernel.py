@@ -474,7 +474,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         None for a body with two equal moments.
         """
         axes = start.body.axes
-        return None if start.is_symmetric else (cls(start.moments, *start.along(axes)), axes)
+        return None if start.is_symmetric else (cls(start.moments, *start.components_along(axes)), axes)
 
     def _inputs_of(self, i: int) -> Any:
         """Return the `Inputs` of the i-th motion, see `of_asymmetric`."""
