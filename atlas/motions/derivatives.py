@@ -194,8 +194,8 @@ class SingleMotion:
     def vectors(self, t: FloatArray, names: Sequence[str], quantity: str, *, certified: bool) -> FloatArray:
         """Return derivatives of a vector ``quantity`` at times t (m,) in ``names``, shape (m, len(names), 3).
 
-        See `Motion.sensitivity` for the quantities, `derivatives` for ``certified``. Raises DomainError for rates beyond
-        `MAX_RATE`.
+        See `Motion.sensitivity` for the quantities, `derivatives` for ``certified``. Raises DomainError for rates
+        beyond `MAX_RATE`.
         """
         faster, inverse = quantity == "angular_velocity", "larmor" in self.inputs.names
         if not 1 / MAX_RATE < self.inputs.rate < MAX_RATE:
