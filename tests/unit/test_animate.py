@@ -215,7 +215,7 @@ def test_a_frame_has_the_pixels_of_a_still_figure_of_its_time(name: str) -> None
 
 
 @pytest.mark.slow
-def test_axes_do_not_jump() -> None:
+def test_limits_of_axes_are_equal_in_all_frames() -> None:
     """Limits that a recipe chooses for each value are those that hold all of them."""
     moving = animation.Frames(
         lambda k: recipes.load("frequencies").scene(field=(1.0, 0.2 + k)), 2, None, lambda *_: None

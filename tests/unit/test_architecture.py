@@ -21,12 +21,12 @@ CLASSES = [x for x in TICKED if re.fullmatch(r"[A-Z]\w+", x)]
 
 
 @pytest.mark.parametrize("path", sorted({*PATHS, *re.findall(r"\batlas/\w+", TEXT)}))
-def test_a_path_is_there(path: str) -> None:
+def test_named_paths_exist(path: str) -> None:
     """Each file and folder that the text or its drawing names is one, but for modules without their ending."""
     assert (ROOT / path).exists() or (ROOT / f"{path}.py").exists()
 
 
-def test_a_name_is_one_of_the_code() -> None:
+def test_named_classes_are_defined() -> None:
     """Each class or constant that the text names is defined somewhere in the package."""
     code = "\n".join(file.read_text("utf-8") for file in (ROOT / "atlas").rglob("*.py"))
     absent = [name for name in CLASSES if not re.search(rf"^(class {name}\b|{name}\b.*=)", code, re.MULTILINE)]

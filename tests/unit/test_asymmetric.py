@@ -325,7 +325,7 @@ def test_a_wrong_period_is_not_certified(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 @pytest.mark.slow
-def test_no_periods_leave_a_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_periods_long_times_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where no periods are found a short time goes directly, a long one is refused in one line."""
     monkeypatch.setattr(torus, "lattice", not_found)
     monkeypatch.setattr(torus, "real_periods", lambda _: [])

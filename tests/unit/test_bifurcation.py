@@ -185,7 +185,7 @@ def test_values_of_no_motion_are_refused() -> None:
         carried(Bifurcation(BODY, 1.0, 0.8), 2, np.array([[0.0, -3.0]]))
 
 
-def test_the_edge_is_reached() -> None:
+def test_the_edge_of_the_region_has_elliptic_motions() -> None:
     """Where the drawing has its edge there is an elliptic motion with these H, F and c: K is found from z."""
     diagram = Bifurcation(BODY, 1.0, 0.8)
     for stretch in diagram.stretches():

@@ -123,7 +123,7 @@ def test_several_integrators_are_compared_in_one_picture(tmp_path: Path) -> None
         Comparison(checks * 3).scene()
 
 
-def test_a_step_may_stand_in_the_file(tmp_path: Path) -> None:
+def test_a_comment_of_the_file_may_give_the_step(tmp_path: Path) -> None:
     """Rows that are saved seldom say nothing of the step: '# step = 0.001' does."""
     motion = MOTIONS["--ratio 1.5 --field 1 2 --omega2 0.7"]
     path = trajectory_file(tmp_path / "a.csv", TIMES, motion.rotation(TIMES))

@@ -116,7 +116,7 @@ def test_more_digits_than_the_closed_form_has_are_no_threshold(tmp_path: Path, o
         check(trajectory_file(tmp_path, of_body), **BODY, threshold=15.0)
 
 
-def test_a_top_has_its_digits(tmp_path: Path, of_top: np.ndarray) -> None:
+def test_the_digits_of_a_top_are_graded(tmp_path: Path, of_top: np.ndarray) -> None:
     """A top with a coupling and a potential: rounded true values, its three constants, and an error that is found."""
     inputs = TOP | {"linear": POTENTIAL[0], "quadratic": POTENTIAL[1]}
     result = check(trajectory_file(tmp_path, of_top), **inputs)
@@ -159,7 +159,7 @@ def test_impossible_motions_are_refused(
 
 
 @pytest.mark.slow
-def test_the_command_takes_both(tmp_path: Path, of_body: np.ndarray, of_top: np.ndarray) -> None:
+def test_the_command_checks_bodies_and_tops(tmp_path: Path, of_body: np.ndarray, of_top: np.ndarray) -> None:
     """`atlas check` with three moments, and with the direction of a top; a failed column is status 1."""
     for rows, options, digits_least in (
         (of_body, "--inertia 0.8 1 1.3 --field 0.2 1 0.6 --omega 0.3 0.7 0.2", 14.0),

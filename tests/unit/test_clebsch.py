@@ -138,7 +138,7 @@ NAMES = ("H", "F", "MK", "K2", "energy")
 
 @pytest.mark.slow
 @pytest.mark.parametrize("inertia", [TENSOR, [1.0, 1.7, 2.2], [1.0, 1.0, 1.5], [1.0, 1.0, 1.0]])
-def test_all_five_are_conserved(inertia: object) -> None:
+def test_all_five_integrals_are_conserved(inertia: object) -> None:
     """Along the Taylor series of any body they keep their initial values within 64 eps of the size of their terms."""
     tensor = np.diag(inertia) if np.ndim(inertia) == 1 else np.asarray(inertia)
     states = taylor(tensor.tolist(), B, OMEGA, [0.5, 3.0, 9.0])

@@ -373,7 +373,7 @@ def test_negative_numbers_are_numbers() -> None:
         "motion --ratio 1.5 --field -0.2 1 --omega 0.3 -0.7 0.2 --times 1",
     ],
 )
-def test_the_minus_of_a_page_is_one(words: str) -> None:
+def test_a_typographic_minus_sign_is_read(words: str) -> None:
     """Numbers that were copied from a page, with a true minus sign, are read as the same numbers."""
     printed = re.sub(r" -(?=\d)", " \N{MINUS SIGN}", words)
     assert record(*printed.split()) == record(*words.split())

@@ -177,7 +177,7 @@ def test_a_simulation_is_checked_in_tesla(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_frequencies_or_why_there_are_none() -> None:
+def test_frequencies_or_the_reason_for_none_are_printed() -> None:
     """A motion on a torus prints its three; of a symmetric body proven digits say that it has no torus."""
     words = "--field 0.2 1 0.6 --omega 1 2 3"
     status, out = run("motion", *f"--inertia 1 1.2 1.3 {words}".split())
@@ -309,7 +309,7 @@ def test_zero_has_any_unit(words: str, plain: dict[str, str]) -> None:
     assert numbers(*words.split(), "--json") == numbers(*words_plain.split(), "--json")
 
 
-def test_help_and_lists_are_asked_for_as_one_would() -> None:
+def test_help_and_list_take_a_name() -> None:
     """`atlas help motion` is its help, `atlas list shapes` the one list."""
     assert run("help", "motion")[1] == run("motion", "--help")[1]
     assert run("help")[1] == run("--help")[1]

@@ -23,7 +23,7 @@ def fresh(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
     gl.library.cache_clear()
 
 
-def test_the_first_that_draws_is_taken_and_remembered(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_first_library_that_draws_is_cached(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """EGL is asked before OSMesa; the next process reads the answer and asks nobody."""
     drivers_tried = []
     monkeypatch.setattr(gl, "_draws", lambda name: drivers_tried.append(name) or name == "osmesa")
@@ -66,7 +66,7 @@ def test_a_folder_that_cannot_be_written_does_no_harm(fresh: Path, monkeypatch: 
 
 
 @pytest.mark.usefixtures("fresh")
-def test_a_child_that_dies_means_no(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_crashing_probe_means_no_library(monkeypatch: pytest.MonkeyPatch) -> None:
     """A crash of the trial is an answer, not a crash of ours."""
     monkeypatch.setattr(gl, "_PROBE", "import os; os.abort()")
     assert gl.library() is None

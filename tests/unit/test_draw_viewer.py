@@ -34,7 +34,7 @@ def line(packed: str) -> FloatArray:
     return np.frombuffer(b64decode(packed), "<i2").reshape(-1, 3) / STEPS
 
 
-def test_the_program_counts_as_we_do() -> None:
+def test_the_script_counts_as_the_package_does() -> None:
     """Steps of points, letters and turns, and places of names with their costs, are the same on both sides."""
     files = {name: HTML / name for name in ("scene.js", "motion.js")}
     text = {name: " ".join(file.read_text(encoding="utf-8").split()) for name, file in files.items()}

@@ -231,7 +231,7 @@ def test_reversing_field_and_velocity_is_a_half_turn_about_e3(I: float, B3: floa
     assert np.array_equal(motion_turned.rotation(t), D[:, None] * plain.rotation(t) * D)
 
 
-def test_omega3_may_be_given_back() -> None:
+def test_a_reported_omega3_is_accepted_as_input() -> None:
     """The omega3 that a motion reports is accepted where it follows."""
     motion = ElementaryMotion(1.5, (1.0, 2.0), 0.7)
     assert ElementaryMotion(1.5, (1.0, 2.0), 0.7, motion.omega3).phi == motion.phi

@@ -249,7 +249,7 @@ def test_the_period_about_an_axis_agrees_with_neighbouring_motions() -> None:
     assert atlas.EllipticMotion(*CASES["field along an axis"]).period == np.inf
 
 
-def test_v_is_on_the_curve() -> None:
+def test_v_lies_on_its_cubic_curve() -> None:
     """V^2 = prod(z + D/I_i), of the branch's sign, and Omega(0) = -[1 + v/(z I_i + D)] B'."""
     for z, branch in ((1.7, 1), (-1.2, -1)):
         motion = atlas.EllipticMotion(BODY, FIELD, z, branch)

@@ -128,7 +128,7 @@ def test_hyperbolas_of_several_bodies_draw_in_every_field(field: tuple[float, fl
 
 
 @pytest.mark.parametrize("name", OF_A_BODY)
-def test_no_field_has_an_answer(name: str) -> None:
+def test_recipes_draw_or_refuse_a_free_body(name: str) -> None:
     """With B = 0 a recipe draws the free body or says in a DomainError that there is nothing to draw."""
     parameters = {"omega3": 0.4} if name == "motion" else {}
     try:

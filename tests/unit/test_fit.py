@@ -66,7 +66,7 @@ def test_ratio_and_field_are_found_without_a_start(kind: str) -> None:
     assert not fit.warnings
 
 
-def test_all_ten_parameters_of_attitudes(attitudes: Any) -> None:
+def test_all_ten_parameters_of_attitudes_lie_within_their_covariance(attitudes: Any) -> None:
     """Together within their covariance: the squared distance is that of ten degrees of freedom."""
     truth = {"ratio": RATIO}
     for letter, vector in (("B", FIELD), ("omega", OMEGA), ("a", ATTITUDE.as_rotvec())):
@@ -639,7 +639,7 @@ def test_confidence_intervals_agree_with_lmfit(attitudes: Any) -> None:
 
 
 @pytest.mark.slow
-def test_a_start_is_taken() -> None:
+def test_given_start_values_begin_the_fit() -> None:
     """A value that is given is where all motions start, at the epoch; distant starts are left."""
     t, w = measured("angular_velocity", 60, 10.0)
     fit = atlas.fit(t, angular_velocity=w, sigma=NOISE, params={"ratio": 1.2, "omega1": 1.0})
@@ -785,7 +785,7 @@ def test_a_held_value_is_within_its_own_bounds() -> None:
 
 
 @pytest.mark.slow
-def test_no_prediction_is_better_than_all_are(attitudes: Any, tmp_path: Path) -> None:
+def test_a_bound_below_all_errors_has_no_horizon(attitudes: Any, tmp_path: Path) -> None:
     """The horizon is then nowhere, in words and in JSON, and a time of the data where only some are that good."""
     sigma = attitudes.predict(attitudes.t).sigma.max(-1)
     assert attitudes.horizon(sigma.min() / 2) == -np.inf

@@ -191,7 +191,7 @@ def test_a_motion_goes_on_from_any_of_its_states(inputs: Any) -> None:
     assert np.abs(again.angular_velocity(t) - motion.angular_velocity(s + t)).max() <= 1e-13
 
 
-def test_any_field_and_any_attitude() -> None:
+def test_turning_the_laboratory_turns_the_motion() -> None:
     """Turning laboratory, field, attitude and angular velocity together turns the motion."""
     random = np.random.default_rng(3)
     frames = [np.linalg.qr(random.normal(size=(3, 3)))[0] for _ in range(3)]
@@ -249,7 +249,7 @@ def test_parameters_broadcast_with_one_another_and_with_time() -> None:
     assert motions.turning_points[0][2, 1] == motion.turning_points[0]
 
 
-def test_public_and_refusals() -> None:
+def test_wrong_inputs_and_times_are_refused() -> None:
     """`atlas.GeneralMotion` is this class; wrong inputs are refused in words, and so are times beyond reach."""
     assert atlas.GeneralMotion is GeneralMotion
     with pytest.raises(AtlasError, match="omega1, omega2, omega3"):

@@ -147,7 +147,7 @@ def test_the_unstable_band_has_an_error_below_4_ulp() -> None:
 
 
 @pytest.mark.parametrize(("ratio", "tau"), [(1.0, 0.1), (1.5, 0.1), (0.5, 0.36), (2.0, 0.0)])
-def test_elsewhere_the_family_is_stable(ratio: float, tau: float) -> None:
+def test_flat_bodies_and_steep_fields_have_no_unstable_band(ratio: float, tau: float) -> None:
     """For I >= 1, or tau > 1/(2 sqrt 2), there is no band."""
     assert Hyperbola(ratio, (1.0, tau)).unstable_band is None
 

@@ -55,7 +55,7 @@ def test_a_general_motion_tells_its_body(seed: int) -> None:
 
 @pytest.mark.parametrize("moments", [(0.5, 1.0, 1.25), (1.0, 1.0, 0.6), (0.9, 0.9, 1.5)])
 @pytest.mark.parametrize("z", [1.0, 0.3, -0.2])
-def test_a_motion_of_the_family_does_not(moments: tuple[float, float, float], z: float) -> None:
+def test_motions_of_the_family_leave_three_numbers_free(moments: tuple[float, float, float], z: float) -> None:
     """Elliptic motions, elementary ones among them, leave three numbers free."""
     inertia, field = np.array(moments), np.array([0.3, 0.75, 0.5])
     places = z + inertia.prod() / inertia
@@ -63,7 +63,7 @@ def test_a_motion_of_the_family_does_not(moments: tuple[float, float, float], z:
     assert rank(inertia, field, (E - 1) * field) == 3
 
 
-def test_a_plane_motion_does_not() -> None:
+def test_plane_motions_leave_three_numbers_free() -> None:
     """With M along an axis and K across it three numbers are free, too."""
     inertia, field = np.array([0.5, 1.0, 1.25]), np.array([0.6, 0.8, 0.0])
     assert rank(inertia, field, np.array([-0.6, -0.8, 0.9])) == 3

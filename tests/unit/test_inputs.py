@@ -162,7 +162,7 @@ def test_lines_of_a_period_beyond_all_floats_are_refused() -> None:
         atlas.GeneralMotion(1.5, SLOW, (*SLOW, 1e-309)).spectrum()
 
 
-def test_true_is_no_column() -> None:
+def test_a_boolean_is_refused_as_a_column() -> None:
     """A truth value is not taken for the first column."""
     with pytest.raises(AtlasError, match="columns of R are 1, 2 and 3, not True"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).column(True, 0.0)

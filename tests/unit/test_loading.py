@@ -265,7 +265,7 @@ def test_help_loads_no_heavy_library() -> None:
     assert {name.split(".")[0] for name in loaded_by(lines)} & set(WATCHED) == set()
 
 
-def test_help_is_there_at_once() -> None:
+def test_help_loads_few_modules() -> None:
     """``atlas --help`` loads few modules of ours, the register and click, and little that these do not need."""
     modules = loaded_by(
         "from atlas.cli import main\n"

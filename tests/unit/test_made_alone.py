@@ -156,7 +156,7 @@ CASES: list[tuple[Callable[[Any], Any], float, float, str]] = [
 @pytest.mark.parametrize(
     ("make", "value_good", "bad", "says"), CASES, ids=[f"{k}: {case[3]}" for k, case in enumerate(CASES)]
 )
-def test_one_bad_entry_is_refused_and_none_is_not(
+def test_one_bad_entry_of_an_array_is_refused(
     make: Callable[[Any], Any], value_good: float, bad: float, says: str
 ) -> None:
     """Whether it comes first or last, or all are bad."""

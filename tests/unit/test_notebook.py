@@ -188,7 +188,7 @@ def test_arrays_and_objects_without_family_have_a_line() -> None:
         assert instance._repr_latex_() is None
 
 
-def test_a_figure_shows_itself() -> None:
+def test_a_figure_is_shown_at_half_its_pixels() -> None:
     """Its picture has twice the pixels of the size that it is shown in."""
     png, metadata = atlas.figure("hyperbola")._repr_png_()  # type: ignore[attr-defined]
     size = struct.unpack(">2I", png[16:24])

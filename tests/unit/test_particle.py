@@ -72,7 +72,7 @@ def test_the_field_can_go_to_zero(E: Any, B: Any, mu: float, power: int) -> None
     assert np.abs(weak - parabola).max() <= bend + 16 * EPS * 20
 
 
-def test_at_rest_without_force() -> None:
+def test_the_velocity_is_constant_without_force() -> None:
     """Without charge, or without fields, the particle keeps its velocity; at t = 0 it is where it was put."""
     y0, v0 = np.array([1.0, 2.0, 3.0]), np.array([0.5, 0.25, -1.0])
     for p in (ParticleMotion(0, [1, 2, 3], [3, 2, 1], y0, v0), ParticleMotion(1, ORIGIN, ORIGIN, y0, v0)):

@@ -85,7 +85,7 @@ def test_matplotlib_has_a_folder_where_it_cannot_write_its_own(tmp_path: Path, c
 
 
 @pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
-def test_no_letter_fails(encoding: str) -> None:
+def test_characters_that_the_encoding_lacks_become_ascii(encoding: str) -> None:
     """Characters that the terminal's encoding lacks are written in ASCII, as near as it gets; JSON keeps its turn."""
     program = (
         "import json, sys; from atlas.cli.app import write_plainly; from atlas.cli.present import dump\n"

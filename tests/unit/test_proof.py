@@ -430,7 +430,7 @@ def test_a_further_line_must_hold_too() -> None:
     assert replace(case, also=(line_changed,)).of_printed().decision == "refuted"
 
 
-def test_every_case_must_hold() -> None:
+def test_a_claim_false_in_one_case_is_refuted() -> None:
     """A claim that is true in one case and false in the other is refuted."""
     s = sympy.Symbol("s", positive=True)
     cases = [Model({"x": s, "size": s}), Model({"x": -s, "size": s})]

@@ -199,7 +199,7 @@ SIGNS = (
 
 
 @pytest.mark.parametrize("line", SIGNS)
-def test_text_is_text(line: str, tmp_path: Path) -> None:
+def test_lines_of_text_are_kept_letter_by_letter(line: str, tmp_path: Path) -> None:
     """Lines that are neither heading nor fence reach the text letter by letter, separators of lines of Unicode too."""
     block: Any = (
         load(report_file(tmp_path, MARKDOWN.replace("The data", f"A\u2028B\n\n{line}\n\nThe data"))).pages[0].blocks[0]

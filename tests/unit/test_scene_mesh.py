@@ -75,7 +75,7 @@ def faces(surface: Surface) -> int:
         (solids.cone(O, AXIS, 0.7, 1.0, 1e-3), 3),
     ],
 )
-def test_nothing_is_cut_where_nothing_bends(surface: Surface, rows: int) -> None:
+def test_straight_lines_of_a_surface_are_one_face_long(surface: Surface, rows: int) -> None:
     """Along its straight lines a surface is one face long; next to an apex, which has no normal, there is a speck."""
     assert surface.grids[0].shape[0] == rows
 

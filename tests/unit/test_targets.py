@@ -74,7 +74,7 @@ def test_the_command_names_panels_that_are_left_out(tmp_path: Path) -> None:
         assert ("atlas: figure cusps: Left out at this size: " in message) == bool(expected)
 
 
-def test_a_fault_is_found() -> None:
+def test_faults_of_a_figure_are_listed() -> None:
     """A figure of its own size, with names too small and one over another, is told to break the law."""
     figure = to_figure(recipes.load("trochoids").scene(), {"xtick.labelsize": 5.0, "axes.linewidth": 0.2})
     for place in (0.5, 0.505):
