@@ -17,7 +17,7 @@ class Finding:
     method          how it was decided, and `follows`: source from which the printed form was derived
     corrected       TeX of the true form where the printed one is refuted; `corrected_verdict` is the verdict on it
     counterexample  texts by letter: values that break the printed form; also "relation", "left", "right" or "reason",
-                    see `atlas.book.blocks.counterexample.written`
+                    see `atlas.book.blocks.counterexample.counterexample_text`
     note            meaning of the verdict, where it needs a word
     modules         paths of modules that cite the entry, such as ``motions/elementary/kernel_hyperbola.py``
     grade           kind of slip, such as misprint, if the entry needs an erratum

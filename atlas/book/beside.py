@@ -7,7 +7,7 @@ Outline: TypeAlias = Mapping[str, Mapping[str, Any]]
 """Answers of one report by kind and name, as JSON has them; see `atlas.book.document.Document.outline`."""
 
 
-class Beside:
+class RelatedReports:
     """Outlines of the related reports of a report, and in `answers` each question put to them, with its answer.
 
     A question is "kind name" with the kind "link", "entry" or "uses", its answer a list, see `ask`. An outline is a

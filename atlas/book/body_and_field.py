@@ -14,7 +14,7 @@ from atlas.bodies.field import Field as PhysicalField
 from atlas.bodies.field import LaboratoryFrame
 from atlas.bodies.speeds import check_drift
 from atlas.bodies.units import System, ratio_of, system
-from atlas.book.digits import shown
+from atlas.book.digits import markdown_of
 from atlas.book.schema import Exact, StrictStruct, Vector
 from atlas.errors import AtlasError, unknown
 
@@ -278,7 +278,7 @@ def _written_out(record: Body | Field, is_gaussian: bool) -> str:
             value = float(Fraction(value))
         elif key == "prime":
             value = tuple(float(Fraction(x)) for x in value)
-        text = value.replace("_", " ") if isinstance(value, str) else shown(value)
+        text = value.replace("_", " ") if isinstance(value, str) else markdown_of(value)
         unit = f"\u202f{units[key]}" if key in units else ""
         numbers.append(text if key == "shape" else f"{_NAMES.get(key, key)} = {text}{unit}")
     return ", ".join(numbers)

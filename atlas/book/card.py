@@ -9,8 +9,8 @@ from typing import Any
 
 from atlas.arithmetic.certified_digits import MARK
 from atlas.book.digits import significant
-from atlas.book.parts import Asked, case_of
-from atlas.book.tables.properties import Thing
+from atlas.book.parts import ReportRequest, case_of
+from atlas.book.tables.properties import FamilyObject
 from atlas.book.tables.table import Request, certified, quantity
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.register import FAMILIES, Family
@@ -255,7 +255,7 @@ class Balls:
         return self.ball(y).atan2(self.ball(y), self.ball(x))
 
 
-def card(request: Asked) -> dict[str, dict[str, Any]]:
+def card(request: ReportRequest) -> dict[str, dict[str, Any]]:
     """Return the card: for each key of `ENTRIES` a dict with the number, or the reason why there is none.
 
     The keys of a dict are says, letter, value, unit, sigma (standard deviation or None), digits as text,
@@ -263,7 +263,7 @@ def card(request: Asked) -> dict[str, dict[str, Any]]:
     the double nearest to the proven number; one that is not proven is computed in doubles, with proven_digits 0 and
     ten digits.
     """
-    item = thing_of(request)
+    item = object_of(request)
     names = [p.name for p in request.family.parameters]
     exact, floats = dict(zip(names, item.exact, strict=True)), dict(zip(names, item.floats, strict=True))
     motion, centre, records = item.kernels(), centre_of(request), dict[str, dict[str, Any]]()
@@ -301,7 +301,7 @@ def _unit(unit: str, time: str) -> str:
     return unit.replace("time", "s" if time in {"s", "1/s"} else time)
 
 
-def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
+def _proven(key: str, item: FamilyObject, twin: Any, exact: Mapping[str, Any], digits: int) -> tuple[float | None, str]:
     """Return the double nearest to a number of the card, and its proven digits as text; (None, "") without a proof.
 
     `twin` is the certified motion, None where there is none; `exact` holds the inputs by name. `key` is that of the
@@ -325,14 +325,14 @@ def _proven(key: str, item: Thing, twin: Any, exact: Mapping[str, Any], digits: 
     return (nearest(Balls.ball(value)), decimal.digits.removesuffix(MARK)) if decimal.proven else (None, "")
 
 
-def thing_of(request: Asked) -> Thing:
+def object_of(request: ReportRequest) -> FamilyObject:
     """Return the object of a request: its family with its inputs. Raises AtlasError for inputs that make no object."""
-    return Thing.of(
+    return FamilyObject.from_request(
         Request([case_of(request)], {"family": request.family.name, **request.exact_values}, request.digits)
     )
 
 
-def centre_of(request: Asked) -> str:
+def centre_of(request: ReportRequest) -> str:
     """Return "the vertical", "the field" or "its momentum": the direction about which the body's axis precesses."""
     if request.family.takes("coupling"):
         return "the vertical" if "heavy" in request.options or "magnetic" not in request.options else "the field"

@@ -10,7 +10,7 @@ from atlas.book import (
     keys,  # noqa: F401  adds its tables
 )
 from atlas.book.appendices import Appendices
-from atlas.book.beside import Beside
+from atlas.book.beside import RelatedReports
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks import KINDS, kind_of
 from atlas.book.blocks.composer import Composer
@@ -29,7 +29,7 @@ def compose(
     pictures: Mapping[str, Picture],
     recorded: Appendices | None = None,
     bibliography: Bibliography | None = None,
-    beside: Beside | None = None,
+    related: RelatedReports | None = None,
     *,
     outline: bool = False,
 ) -> Document:
@@ -37,7 +37,7 @@ def compose(
 
     `pictures` are those of `atlas.book.pictures.pictures`, `recorded` holds the recorded results that its blocks
     show, `bibliography` the works that can be cited. A citation leads to the entry of the ledger where the report has
-    that, else to the first display of the equation, else to one of the reports `beside` this one. An `outline` has
+    that, else to the first display of the equation, else to one of the reports `related` to it. An `outline` has
     numbers and anchors of everything, and computes no table. A picture that failed keeps its place with the reason;
     any other mistake raises AtlasError.
     """
@@ -47,7 +47,7 @@ def compose(
         ledger=_pages_of(report),
         equations=dict(THEOREMS),
         bibliography=bibliography or Bibliography(),
-        beside=beside or Beside(),
+        related=related or RelatedReports(),
     )
     document.title = document.texts.add(title(report.title), "the title", inline=True)
     document.subtitle = document.texts.add(title(report.subtitle), "the subtitle", inline=True)

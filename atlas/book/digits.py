@@ -74,10 +74,10 @@ def plain(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def shown(value: Any) -> str:
+def markdown_of(value: Any) -> str:
     """Return an input as Markdown: floats with minus signs and powers of ten, vectors in brackets, others by `str`."""
     if isinstance(value, tuple | list):
-        return f"({', '.join(shown(component) for component in value)})"
+        return f"({', '.join(markdown_of(component) for component in value)})"
     if isinstance(value, bool) or not isinstance(value, float | int):
         return str(value)
     mantissa, _, power = plain(value).partition("e")

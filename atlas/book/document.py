@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from atlas.arithmetic.lazy import cached_property
-from atlas.book.beside import Beside, Outline
+from atlas.book.beside import Outline, RelatedReports
 from atlas.book.bibliography import Bibliography
 from atlas.book.blocks.composer import Use
 from atlas.book.blocks.figure import Figure, Picture
@@ -86,8 +86,8 @@ class Document:
     `equations` the numbers of equations that have none in the paper, those of the theorems the same in every
     report; `ledger` the slug of the page of each entry of the ledger; `errata` that of the page of the errata.
     `title`, `subtitle`, `abstract`, `given`, `symbols` (with their anchors) and `formulas` (cited equations that no
-    page of this report displays, by name) are indices of texts. `written` holds the typeset texts by target, `uses`
-    the places that cite each equation. `gallery` is the page of pictures, in the HTML alone. `beside` holds the
+    page of this report displays, by name) are indices of texts. `typeset_texts` holds these by target, `uses`
+    the places that cite each equation. `gallery` is the page of pictures, in the HTML alone. `related` holds the
     related reports in outline; a citation of a name that is missing here leads there. `bibliography` holds the
     works that can be cited, `listed_on` is the page of their list.
     """
@@ -107,18 +107,18 @@ class Document:
     errata: str = ""
     bibliography: Bibliography = field(default_factory=Bibliography)
     listed_on: str = ""
-    written: dict[Target, list[str]] = field(default_factory=dict)
-    beside: Beside = field(default_factory=Beside)
+    typeset_texts: dict[Target, list[str]] = field(default_factory=dict)
+    related: RelatedReports = field(default_factory=RelatedReports)
     uses: defaultdict[str, list[Use]] = field(default_factory=lambda: defaultdict(list))
     formulas: dict[str, int] = field(default_factory=dict)
     gallery: PageView | None = None
 
     def set(self, *targets: Target) -> None:
-        """Typeset all texts for each target, "html", "typst" or "latex", into `written`, in parallel threads.
+        """Typeset all texts for each target, "html", "typst" or "latex", into `typeset_texts`, in parallel threads.
 
         Raises AtlasError for a formula that can't be read, a link that is not allowed, and an unknown citation.
         """
-        self.written = self.texts.set({target: self.cite(target) for target in targets})
+        self.typeset_texts = self.texts.set({target: self.cite(target) for target in targets})
 
     def cite(self, target: Target) -> Cite:
         """Return the function (name, place) -> `Link` that resolves citations for a target, "html", "typst" or "latex".
@@ -132,9 +132,9 @@ class Document:
             if target_link := self.place(name, printed=target == "typst"):
                 file, anchor, words = target_link
                 return Link(words, file if target == "html" else "", anchor, says)
-            if links := self.beside.ask("link", name):
-                link_beside = Link(*links[0])
-                return link_beside._replace(says=says) if target == "html" else Link(link_beside.words)
+            if links := self.related.ask("link", name):
+                related_link = Link(*links[0])
+                return related_link._replace(says=says) if target == "html" else Link(related_link.words)
             if name in EQUATIONS:
                 return Link(self.number(name))
             if name in self.bibliography.named:
@@ -146,7 +146,7 @@ class Document:
 
         return link
 
-    def from_beside(self, name: str) -> Link | None:
+    def from_related(self, name: str) -> Link | None:
         """Return the `Link` with which a related report cites a name of this one; None if the name is not here.
 
         "report:NAME" leads to this report's first page, "page:gallery" to its gallery. The link's page is a path
@@ -168,13 +168,13 @@ class Document:
     def outline(self) -> Outline:
         """Answers to questions of related reports, {"link": ..., "entry": ..., "uses": ...}, each a dict by name.
 
-        A link is that of `from_beside`, an entry the path without suffix of the page with an equation's ledger
+        A link is that of `from_related`, an entry the path without suffix of the page with an equation's ledger
         entry, and uses are lists of `Use`. Paths begin with "../NAME/".
         """
         folder = f"../{self.report.name}"
         names = (f"report:{self.report.name}", "page:gallery", *self.targets, *self.ledger)
         return {
-            "link": {name: link for name in names if (link := self.from_beside(name))},
+            "link": {name: link for name in names if (link := self.from_related(name))},
             "entry": {name: f"{folder}/{page}" for name, page in self.ledger.items()},
             "uses": {
                 name: [use._replace(file=f"{folder}/{use.file}") for use in uses]
@@ -189,7 +189,7 @@ class Document:
 
         Of several related reports with a gallery the first counts.
         """
-        links = self.beside.ask("link", "page:gallery")
+        links = self.related.ask("link", "page:gallery")
         return "gallery.html" if self.gallery else links[0][1] if links else ""
 
     @property
@@ -215,7 +215,7 @@ class Document:
 
         Else "".
         """
-        return self.ledger.get(name) or next(iter(self.beside.ask("entry", name)), "")
+        return self.ledger.get(name) or next(iter(self.related.ask("entry", name)), "")
 
     def number(self, name: str) -> str:
         """Return an equation's citation: its number in the paper, "(72)", the report's own number, or "(name)"."""

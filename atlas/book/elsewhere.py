@@ -8,11 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from atlas.book.digits import plain
-from atlas.book.parts import Asked, case_of
+from atlas.book.parts import ReportRequest, case_of
 from atlas.errors import DomainError
 
 
-def near(request: Asked) -> Iterator[tuple[str, Asked]]:
+def neighbours(request: ReportRequest) -> Iterator[tuple[str, ReportRequest]]:
     """Yield (words in Markdown, request) for neighbouring objects: other starts, other bodies, all motions of the body.
 
     Nothing is yielded without a body.
@@ -56,7 +56,7 @@ def opposite(B: float, omega: float) -> float:
     return float(f"{-2 * Decimal(repr(float(B))) - Decimal(repr(float(omega))):.15g}")
 
 
-def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
+def _of_other_bodies(request: ReportRequest) -> Iterator[tuple[str, ReportRequest]]:
     """Yield (words, request) of the same motion for a sphere (I = 1) and for a disk or loop (I = 2), unless it is one.
 
     Nothing is yielded for a body of point masses.
@@ -70,7 +70,7 @@ def _of_other_bodies(request: Asked) -> Iterator[tuple[str, Asked]]:
             yield words, request.changed(request.family.name, **shape, ratio=border)
 
 
-def reproduced(request: Asked, motion: Any) -> tuple[str, list[str]]:
+def reproduced(request: ReportRequest, motion: Any) -> tuple[str, list[str]]:
     """Return the shell command, and the lines of Python, that print the numbers of this motion."""
     family = request.family
     kernels = family.kernels()
@@ -82,7 +82,7 @@ def reproduced(request: Asked, motion: Any) -> tuple[str, list[str]]:
     lines += [f"print(it.{q.name})" for q in family.quantities if _is_printed(q, motion)]
     command = family.command.name if family.command else family.name
     digits = [] if request.deviations else ["--digits", str(request.digits)]
-    return shlex.join(["atlas", command, *request.typed, *digits]), lines
+    return shlex.join(["atlas", command, *request.option_words, *digits]), lines
 
 
 def _is_printed(quantity: Any, motion: Any) -> bool:
@@ -99,7 +99,7 @@ def _is_printed(quantity: Any, motion: Any) -> bool:
     return True
 
 
-def _python(request: Asked, name: str) -> str:
+def _python(request: ReportRequest, name: str) -> str:
     """Return the parameter `name` as Python source, such as "atlas.SymmetricBody(1.0, 1.5)"; "" if it is left out."""
     body, field = request.body or {}, request.field or {}
     if name == "ratio":

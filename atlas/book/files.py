@@ -41,7 +41,7 @@ def find(name: str) -> Path:
     raise unknown("report", name, [*reports, "your_body"])
 
 
-def beside(name: str, folder: Path) -> Path | None:
+def file_in(name: str, folder: Path) -> Path | None:
     """Return the path of a file, `name` relative to `folder`, in or below that folder of a report.
 
     None if the file is missing or outside, also through a link.

@@ -13,7 +13,7 @@ import numpy as np
 
 from atlas.book.digits import MINUS
 from atlas.book.markdown import fenced
-from atlas.book.parts import Asked, figures_of, headed, records_of, templated
+from atlas.book.parts import ReportRequest, figures_of, headed, records_of, templated
 from atlas.places import folder
 
 MAX_NAME_LENGTH = 48
@@ -50,21 +50,21 @@ class Fitted:
 
     fit       an `atlas.fit`, of the data in `file`, a path from the folder of the page; `digest` that of its content
     options   the options of the command that makes the page, each with the typed words, by name
-    given     arguments of `fit_file` that repeat the fit from the values found before, by name
+    arguments arguments of `fit_file` that repeat the fit from the values found before, by name
     motion    request of a page of the fitted motion
     ahead     lines on the predictions that were asked for
-    title, called    title and file name that were asked for, or ""
+    title, file_name title and file name that were asked for, or ""
     """
 
     fit: Any
     file: str
     digest: str
     options: Mapping[str, tuple[str, ...]]
-    given: Mapping[str, Any]
-    motion: Asked
+    arguments: Mapping[str, Any]
+    motion: ReportRequest
     ahead: tuple[str, ...] = ()
     title: str = ""
-    called: str = ""
+    file_name: str = ""
 
     @property
     def words(self) -> list[str]:
@@ -74,7 +74,7 @@ class Fitted:
     @property
     def command(self) -> str:
         """The shell command that makes the page, "atlas page --fit ...", quoted."""
-        return shlex.join(["atlas", "page", *self.words, *(["--name", self.called] if self.called else [])])
+        return shlex.join(["atlas", "page", *self.words, *(["--name", self.file_name] if self.file_name else [])])
 
     @property
     def name(self) -> str:
@@ -82,7 +82,7 @@ class Fitted:
         words = ["fit", PurePath(self.words[1]).stem, *self.words[2:]]
         name = "-".join(re.sub(r"[^\w.+-]+", "_", word.removeprefix("--"), flags=re.ASCII) for word in words)
         short = f"{name[:MAX_NAME_LENGTH]}-{sha256(name.encode()).hexdigest()[:8]}"
-        return self.called or (name if len(name) <= MAX_NAME_LENGTH else short)
+        return self.file_name or (name if len(name) <= MAX_NAME_LENGTH else short)
 
     @property
     def _file(self) -> str:
@@ -179,7 +179,7 @@ class Fitted:
 
     def _recipe(self) -> str:
         """Return the Python source of a recipe that fits the data again and draws data, curve and residuals."""
-        options = pformat(dict(self.given), sort_dicts=False)
+        options = pformat(dict(self.arguments), sort_dicts=False)
         source = (folder("templates") / "report" / "fit.py.txt").read_text(encoding="utf-8")
         return source.format(digest=self.digest, file=self.file, options=options)
 

@@ -55,7 +55,7 @@ def pages(document: Document) -> dict[str, str]:
     The texts must be typeset before. A page's section links are added only to a report of one page.
     """
     environment = templates("html", plain=plain, title_words=title_words)
-    texts = [Markup(whole(text)) for text in document.written["html"]]  # noqa: S704  from pandoc
+    texts = [Markup(with_unbroken_options(text)) for text in document.typeset_texts["html"]]  # noqa: S704  from pandoc
     template = environment.get_template("page.html")
     common: dict[str, Any] = {
         "document": document,
@@ -80,7 +80,7 @@ def pages(document: Document) -> dict[str, str]:
     return {"style.css": style, **scripts, "index.js": index(document, set_pages, texts), **set_pages}
 
 
-def whole(text: str) -> str:
+def with_unbroken_options(text: str) -> str:
     """Return HTML in which each option of inline code, such as --out, is a span that is not broken at hyphens."""
     option = re.compile(r"(?<![\w-])--?[A-Za-z][\w-]*")
     return re.sub("<code>[^<]*</code>", lambda code: option.sub(r'<span class="option">\g<0></span>', code[0]), text)

@@ -76,7 +76,7 @@ def _keys(kind: Any) -> Iterator[str]:
         if is_dataclass(key.type) or key.name in {"pages", "blocks"}:  # which have no key in the file
             continue
         plain = isinstance(key.default, str | int | float | bool) and key.default != ""
-        left_out = f"`{key.name}` = {toml.written(key.default)}" if plain else f"`{key.name}`"
+        left_out = f"`{key.name}` = {toml.source(key.default)}" if plain else f"`{key.name}`"
         yield f"**`{key.name}`**" if key.required else left_out
 
 

@@ -69,7 +69,7 @@ def sources(document: Document, pictures: Mapping[str, bytes]) -> dict[str, byte
     keys = {number.cell: number.key for number in numbers}
     # what has no key stays as it is printed
     by_key = partial(_CELL.sub, lambda cell: rf"\atlas{{{keys[cell[1]]}}}" if cell[1] in keys else cell[2])
-    texts = [by_key(text) for text in document.written["latex"]]
+    texts = [by_key(text) for text in document.typeset_texts["latex"]]
     files = {NUMBERS: environment.get_template("numbers.tex").render(numbers=numbers, **common)}
     for table in document.listed("table"):
         files[f"tables/{table.id.removeprefix('tab-')}.tex"] = table_of(table, markdown, texts)

@@ -16,7 +16,7 @@ from atlas.book.blocks import Block
 from atlas.book.blocks.figure import Figure
 from atlas.book.blocks.table import Listing, Recorded, Table
 from atlas.book.definition import Report, Source
-from atlas.book.files import beside, names, text_of
+from atlas.book.files import file_in, names, text_of
 from atlas.book.gallery import chosen
 from atlas.book.inputs import declared, evaluated, filled
 from atlas.book.markdown import LineError, Piece, read
@@ -97,7 +97,7 @@ def _inconsistencies(report: Report, folder: Path) -> Iterator[SchemaError]:
         yield SchemaError("pages", sentence, "slug" if report.pages else "pages", (0,))
     if [page.printed for page in report.pages] != sorted((page.printed for page in report.pages), reverse=True):
         yield SchemaError("pages", "those with printed = false must come last, so that chapters have one number")
-    if report.bibliography and not beside(report.bibliography, folder):
+    if report.bibliography and not file_in(report.bibliography, folder):
         sentence = f"{report.bibliography!r} is no file in {folder}, where the report is"
         yield SchemaError("bibliography", sentence, "bibliography")
     yield from _unusable_styles(report.style, folder)
@@ -114,7 +114,7 @@ def _unusable_styles(style: str, folder: Path) -> Iterator[SchemaError]:
     A file is looked for in `folder`, that of the report.
     """
     for name in filter(None, style.split(",")):
-        file = beside(name, folder)
+        file = file_in(name, folder)
         if file and (latex := LATEX.search(file.read_text(encoding="utf-8", errors="replace"))):
             sentence = f"{name!r} sets {latex[1]}: of LaTeX, which can read any file, a report has none"
             yield SchemaError("style", sentence, "style")
@@ -138,7 +138,7 @@ def _filled(report: Report, folder: Path) -> Report:
         return replace(block, sets=(), parameters=reduce(or_, [*sets, block.parameters]))
 
     pages = tuple(replace(page, blocks=tuple(map(fill, page.blocks))) for page in report.pages)
-    styles = (str(beside(name, folder) or name) for name in filter(None, report.style.split(",")))
+    styles = (str(file_in(name, folder) or name) for name in filter(None, report.style.split(",")))
     return replace(report, pages=pages, style=",".join(styles), gallery=chosen(report.gallery, folder))
 
 
@@ -160,7 +160,7 @@ def _unknown_names(block: Block, report: Report, path: tuple[int, int], folder: 
                 yield SchemaError(place, str(unknown(kind, name, names_there, "in [parameters]")), key, path)
     if isinstance(block, Figure) and block.recipe.endswith(".py"):
         name = Path(block.recipe).name
-        if name != block.recipe.removeprefix("./") or not beside(name, folder):
+        if name != block.recipe.removeprefix("./") or not file_in(name, folder):
             sentence = f"recipe = {block.recipe!r} is no file beside the report; it would be {folder / name}"
             yield SchemaError(place, sentence, "recipe", path)
 

@@ -173,7 +173,7 @@ def _without(values: dict[str, Any], piece: Piece, *keys: str) -> dict[str, Any]
 def fenced(block: Mapping[str, Any]) -> str:
     """Return the Markdown of a block: TOML in a fence ```{kind}, and its text below; values None are left out."""
     keys = {key: value for key, value in block.items() if key not in {"kind", "text"} and value is not None}
-    lines = "".join(f"{key} = {toml.written(value)}\n" for key, value in keys.items())
+    lines = "".join(f"{key} = {toml.source(value)}\n" for key, value in keys.items())
     if "text" in block:
         lines = f"{RULE}\n{lines}{RULE}\n{block['text']}\n"
     return f"```{{{block['kind']}}}\n{lines}```\n"

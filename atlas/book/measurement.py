@@ -7,9 +7,9 @@ from typing import Any, Literal
 import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
-from atlas.book.card import has_card, thing_of
+from atlas.book.card import has_card, object_of
 from atlas.book.digits import Number
-from atlas.book.parts import Asked, case_of
+from atlas.book.parts import ReportRequest, case_of
 from atlas.book.tables.elementary import NONE
 from atlas.errors import AtlasError
 from atlas.families.family import ROUNDING
@@ -50,7 +50,7 @@ CAPTION = (
 
 
 def measurement_of(
-    request: Asked, card: Mapping[str, Mapping[str, Any]], left_out: list[str]
+    request: ReportRequest, card: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
     """Yield the listing block of a proposed measurement; where there is none, add the reason to `left_out`.
 
@@ -67,7 +67,7 @@ def measurement_of(
         return
     case, unit = case_of(request), "s" if request.time in {"s", "1/s"} else request.time
     field = np.array((0.0, *(case.components if request.body else request.values.get("field", (0.0, 0.0))))[-3:])
-    omega = request.family.kernels()(*thing_of(request).floats).angular_velocity(0.0)
+    omega = request.family.kernels()(*object_of(request).floats).angular_velocity(0.0)
     body = case.body if request.body else np.array(request.values["inertia"]) / request.values["inertia"][-1]
     t, rate = (
         np.linspace(0.0, TURNS * turn, READINGS + 1)[1:],

@@ -23,7 +23,7 @@ from atlas.places import folder
 
 
 @dataclass(frozen=True)
-class Asked:
+class ReportRequest:
     """Request of a report of one object.
 
     family    the family of the object
@@ -33,7 +33,7 @@ class Asked:
     units     the system of units, si or gaussian, of a family whose parameters have different units
     values    the other parameters of the family by name; `exact` those that no floats hold, as fractions in text
     digits    significant digits of the tables; `title` that was asked for, "" for one made from the object
-    called    the name of its files, if it has one of its own
+    file_name the name of its files, if it has one of its own
     parts     the parts that the report has; `only`, the same as typed, "" for all
     is_page   whether the command is that of a page
     note      a sentence on its axes
@@ -51,7 +51,7 @@ class Asked:
     units: str = ""
     digits: int = 10
     title: str = ""
-    called: str = ""
+    file_name: str = ""
     parts: Sequence[str] = ()
     only: str = ""
     is_page: bool = False
@@ -62,7 +62,7 @@ class Asked:
     exact: Mapping[str, Sequence[str]] = attribute(default_factory=dict)
 
     @property
-    def typed(self) -> list[str]:
+    def option_words(self) -> list[str]:
         """Words of the options of the object, each "--name" followed by its texts."""
         return [word for name, texts in self.options.items() for word in (f"--{name}", *texts)]
 
@@ -72,10 +72,10 @@ class Asked:
 
         The page's family stands first for tops only, whose options do not tell it; defaults are left out.
         """
-        settings = {"title": self.title, "name": self.called, "digits": self.digits if self.digits != 10 else "",
+        settings = {"title": self.title, "name": self.file_name, "digits": self.digits if self.digits != 10 else "",
                "only": self.only}  # fmt: skip
         options = [word for name, value in settings.items() if value for word in (f"--{name}", str(value))]
-        return [*[self.family.page] * self.family.takes("coupling"), *self.typed, *options]
+        return [*[self.family.page] * self.family.takes("coupling"), *self.option_words, *options]
 
     @property
     def exact_values(self) -> dict[str, Any]:
@@ -89,7 +89,7 @@ class Asked:
             return shlex.join(["atlas", "page", *replace(self, only="").words])
         return shlex.join(["atlas", "report", "your_body", *self.words])
 
-    def changed(self, family: str, **options: Any) -> "Asked":
+    def changed(self, family: str, **options: Any) -> "ReportRequest":
         """Return the request of a family for a neighbouring object, without title and file name.
 
         `options` are values of options by name, numbers or tuples; one with the value None is removed.
@@ -101,7 +101,7 @@ class Asked:
         ratio = {name: new[name] for name in new if name == "ratio"}  # in the place of a shape
         return replace(
             self,
-            called="",
+            file_name="",
             title="",
             family=FAMILIES[family],
             options=kept_options | new if "ratio" in kept_options else ratio | kept_options | new,
@@ -154,13 +154,13 @@ def edited(file: str) -> bool:
     return matched is None or sha256(content.encode()).hexdigest()[:12] != matched[1]
 
 
-def setting_of(request: Asked) -> Iterator[dict[str, Any]]:
+def setting_of(request: ReportRequest) -> Iterator[dict[str, Any]]:
     """Yield a table block, a dict, of the body and the field B, if the request has a field given by B; else nothing."""
     if request.field and "B" in request.field:
         yield {"kind": "table", "table": "body_and_field", "id": "setting", "body": "body", "field": "field"}
 
 
-def deviations_of(request: Asked) -> Iterator[dict[str, Any]]:
+def deviations_of(request: ReportRequest) -> Iterator[dict[str, Any]]:
     """Yield a listing block, a dict, of standard deviations, if inputs have uncertainties; otherwise nothing."""
     if request.deviations:
         yield {
@@ -184,7 +184,7 @@ def other_families(family: Family) -> list[Family]:
     return [FAMILIES[name] for name, inputs in parameters.items() if {"ratio", "field"} <= inputs <= names]
 
 
-def _calls(request: Asked, family: Family) -> dict[str, str]:
+def _calls(request: ReportRequest, family: Family) -> dict[str, str]:
     """Return {"body": "body", "field": "field"}, keys by which a block refers to the report's body and field.
 
     A key is left out where the family has no such parameter or takes it as an option; {} without a body.
@@ -196,7 +196,7 @@ def _calls(request: Asked, family: Family) -> dict[str, str]:
     }
 
 
-def table_of(request: Asked, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
+def table_of(request: ReportRequest, table: str, family: str, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the block of the computed `table` of a family, a dict by key of the report file.
 
     `values` are the family's parameters by name.
@@ -235,7 +235,7 @@ def too_slow(motion: Any, time: str) -> Iterator[str]:
 
 
 def figures_of(
-    request: Asked, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
+    request: ReportRequest, recipes_of: Mapping[str, Mapping[str, Any]], left_out: list[str]
 ) -> Iterator[dict[str, Any]]:
     """Yield a figure block, a dict by key of the report file, for each recipe of ``recipes_of``.
 
@@ -270,7 +270,7 @@ def figures_of(
     ]
 
 
-def case_of(request: Asked) -> Any:
+def case_of(request: ReportRequest) -> Any:
     """Return the `BodyAndField` of a request, its body and field with their units; both are None where it has none.
 
     Raises AtlasError for records that make no body or field.
@@ -279,7 +279,7 @@ def case_of(request: Asked) -> Any:
     return body_and_field(body, convert(request.field, Field) if request.field else None)
 
 
-def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def closed_of(request: ReportRequest, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the table block of the nearest closed motions; if they can't be computed add the reason to ``left_out``.
 
     Nothing is yielded for a family that has neither phi nor a precession per period.
@@ -294,7 +294,7 @@ def closed_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
             yield block
 
 
-def records_of(request: Asked) -> dict[str, Any]:
+def records_of(request: ReportRequest) -> dict[str, Any]:
     """Return the table "parameters" of a report's head: its body and its field by kind, those that the request has.
 
     It is {"parameters": {"bodies": {"body": ...}, "fields": {"field": ...}}}, or {} without records.

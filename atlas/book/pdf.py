@@ -26,7 +26,7 @@ def source(document: Document) -> str:
     return environment.get_template("report.typ").render(
         document=document,
         report=document.report,
-        texts=document.written["typst"],
+        texts=document.typeset_texts["typst"],
         family=TEXT_FONT,
         math=MATH_FONT,
     )

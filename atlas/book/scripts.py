@@ -95,7 +95,7 @@ class Term:
         return self._named(f"{self} > 0 ? {positive} : {alternative}")
 
 
-def written(name: str, formula: Callable[..., Any], arguments: str) -> str:
+def function_source(name: str, formula: Callable[..., Any], arguments: str) -> str:
     """Return the source of a JavaScript function `name`, a property of an object, that evaluates a formula with I2 = 1.
 
     `arguments` are the names of the formula's arguments after the first, I2, separated by spaces. A tuple becomes
@@ -116,7 +116,7 @@ def script(name: str) -> str:
     text = (folder("templates") / "html" / name).read_text(encoding="utf-8")
     if name != FORMULAIC:
         return text
-    functions = ",\n".join(written(formula_name, *formula) for formula_name, formula in FORMULAS.items())
+    functions = ",\n".join(function_source(formula_name, *formula) for formula_name, formula in FORMULAS.items())
     looks = {
         role: [look.colour, look.tube, look.back, look.glass] for role, look in STYLES.items() if f'"{role}"' in text
     }

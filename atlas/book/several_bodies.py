@@ -10,10 +10,10 @@ from decimal import Decimal
 from typing import Any
 
 from atlas.arithmetic.uncertainty import concise
-from atlas.book.card import ENTRIES, ONE_PERIOD, card, thing_of
+from atlas.book.card import ENTRIES, ONE_PERIOD, card, object_of
 from atlas.book.digits import Number
 from atlas.book.markdown import fenced
-from atlas.book.parts import Asked, templated
+from atlas.book.parts import ReportRequest, templated
 from atlas.book.verdict import verdict
 from atlas.book.your_body import NAME, name_of, title_of
 
@@ -104,17 +104,17 @@ def table_of(rows: Iterable[Row]) -> str:
     return file.getvalue()
 
 
-def row_of(line: int, words: Sequence[str], request: Asked, card: Card) -> Row:
+def row_of(line: int, words: Sequence[str], request: ReportRequest, card: Card) -> Row:
     """Return the `Row` of a report that was built, from its line, typed words, request and `card`."""
     return Row(line, words, name_of(request), titled(request, card), card)
 
 
-def titled(request: Asked, card: Card) -> str:
+def titled(request: ReportRequest, card: Card) -> str:
     """Return the title of a body's report: the requested one, else one made of `card` and the verdict."""
-    return request.title or title_of(request, card, verdict(thing_of(request)))
+    return request.title or title_of(request, card, verdict(object_of(request)))
 
 
-def against(first: Asked, second: Asked) -> tuple[str, dict[str, str]]:
+def against(first: ReportRequest, second: ReportRequest) -> tuple[str, dict[str, str]]:
     """Return (name of the page on two bodies side by side, its files: texts by name).
 
     `first` and `second` are the requests of both.

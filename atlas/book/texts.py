@@ -61,13 +61,13 @@ Cite: TypeAlias = Callable[[str, str], Link]
 
 @dataclass(frozen=True)
 class Text:
-    """A piece of Markdown, its place in the report for messages (`where`), and whether it is no whole paragraph.
+    """A piece of Markdown, its place in the report for messages (`place`), and whether it is no whole paragraph.
 
     `anchors` are the ids to give to the first citations of some names.
     """
 
     markdown: str
-    where: str
+    place: str
     inline: bool
     anchors: Mapping[str, str]
 
@@ -113,7 +113,7 @@ class Texts:
         for target, cite in cites.items():
             for key, text in zip(keys[target], self.texts, strict=True):
                 links, _ = self.memory.get(key, (None, ""))
-                if links is not None and all([*cite(name, text.where)] == [*link] for name, link in links.items()):
+                if links is not None and all([*cite(name, text.place)] == [*link] for name, link in links.items()):
                     self.used[key] = self.memory[key]
         new: dict[Target, dict[str, Text]] = {target: {} for target in cites}
         for target in cites:
@@ -122,7 +122,7 @@ class Texts:
                     new[target].setdefault(key, text)
         trees = _read([text for texts in new.values() for text in texts.values()])
         with ThreadPoolExecutor(len(cites)) as threads:
-            for typeset_texts in threads.map(lambda target: _written(new[target], target, cites[target], trees), cites):
+            for typeset_texts in threads.map(lambda target: _typeset(new[target], target, cites[target], trees), cites):
                 self.used |= typeset_texts
         return {target: [self.used[key][1] for key in keys[target]] for target in cites}
 
@@ -134,13 +134,13 @@ def _read(texts: Sequence[Text]) -> dict[tuple[str, bool], Tree]:
     """
     for text in texts:
         if deepest(text.markdown) > MAX_DEPTH:
-            raise AtlasError(f"{text.where}: brackets, braces or quotations are nested more than {MAX_DEPTH} deep.")
+            raise AtlasError(f"{text.place}: brackets, braces or quotations are nested more than {MAX_DEPTH} deep.")
     sources = dict.fromkeys((text.markdown, text.inline) for text in texts)
     trees = pandoc.read([(_braced(markdown), inline) for markdown, inline in sources]) if sources else []
     return dict(zip(sources, trees, strict=True))
 
 
-def _written(
+def _typeset(
     texts: Mapping[str, Text], target: Target, cite: Cite, trees: Mapping[tuple[str, bool], Tree]
 ) -> dict[str, Any]:
     """Return for each key the links of a text's citations, by name, and the text typeset from its tree."""
@@ -158,7 +158,7 @@ def _written(
         pieces = pandoc.write([(nodes[key], text.inline) for key, text in texts.items()], target) if texts else []
     except FormulaError as error:
         key = next(key for key in texts if json.dumps(error.tex) in json.dumps(nodes[key]))
-        raise AtlasError(f"{texts[key].where}: {error}") from error
+        raise AtlasError(f"{texts[key].place}: {error}") from error
     return {
         key: [links[key], _finished(piece, target, text)]
         for (key, text), piece in zip(texts.items(), pieces, strict=True)
@@ -238,7 +238,7 @@ class _Checked:
         Raises AtlasError for pictures and raw text, and for links and citations that are not allowed.
         """
         if kind in {"Image", "RawInline", "RawBlock"}:
-            raise AtlasError(f"{self.text.where}: a text holds no pictures; make a figure block of it.")
+            raise AtlasError(f"{self.text.place}: a text holds no pictures; make a figure block of it.")
         if kind == "Cite":
             return self.citation(content[0])
         if kind == "Math":
@@ -264,7 +264,7 @@ class _Checked:
         `pieces` are pandoc's citations, dicts. Works for Typst and LaTeX stay a citation. Raises AtlasError for an
         unknown name.
         """
-        links = [self.cite(work["citationId"], self.text.where) for work in pieces]
+        links = [self.cite(work["citationId"], self.text.place) for work in pieces]
         works = self.are_works(pieces, links)
         if works and self.target != "html":  # Typst and BibTeX set their own bibliography
             return [{"t": "Cite", "c": [[work | self.around(work) for work in pieces], []]}]
@@ -285,9 +285,9 @@ class _Checked:
         """
         works = {bool(link.bracketed) for link in links}
         if len(works) > 1:
-            raise AtlasError(f"{self.text.where}: works and equations are cited in brackets of their own.")
+            raise AtlasError(f"{self.text.place}: works and equations are cited in brackets of their own.")
         if works == {True} and any(work["citationPrefix"] for work in citations):
-            raise AtlasError(f"{self.text.where}: words before a work in brackets are lost in print; put them outside.")
+            raise AtlasError(f"{self.text.place}: words before a work in brackets are lost in print; put them outside.")
         return works == {True}
 
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
@@ -324,7 +324,7 @@ class _Checked:
             return url.replace("doi:", "https://doi.org/", 1) if url.startswith("doi:") else url
         if not _INSIDE.fullmatch(url):
             raise AtlasError(
-                f"{self.text.where}: a link to {url[:60]!r} is not allowed; it leads to http:, https:, mailto:, doi: "
+                f"{self.text.place}: a link to {url[:60]!r} is not allowed; it leads to http:, https:, mailto:, doi: "
                 "or to a page beside it, such as index.html."
             )
         return url
@@ -410,7 +410,7 @@ def _mended(formula: str, text: Text) -> str:
     A formula marked by ``\boxed`` gets its colour. Raises AtlasError for a fraction below a fraction.
     """
     if _CHAIN.search(formula):
-        raise AtlasError(f"{text.where}: a fraction below a fraction is lost in print; write it with a slash.")
+        raise AtlasError(f"{text.place}: a fraction below a fraction is lost in print; write it with a slash.")
     formula = re.sub(r"#box\(stroke: black, inset: 3pt, \[\$ (.+?) \$\]\)", r"#changed[$\1$]", formula)
     formula = formula.replace("#h(0em)", "#h(0.278em)").replace("#h(-1em)", "#h(-0.167em)")
     return re.sub(r"\\\| ?(.+?) ?\\\|", r"lr(| \1 |)", formula)

@@ -21,7 +21,7 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
     """
     for key, value in values.items():
         if not isinstance(value, dict) and value is not None:
-            yield f"{key} = {written(value)}\n"
+            yield f"{key} = {source(value)}\n"
     for key, table in values.items():
         if isinstance(table, dict):
             name = f"{place}.{key}".lstrip(".")
@@ -30,15 +30,15 @@ def lines(values: Mapping[str, Any], place: str = "") -> Iterator[str]:
             yield from lines(table, name)
 
 
-def written(value: Any) -> str:
+def source(value: Any) -> str:
     """Return a value as TOML source: a dict as an inline table, a text with line breaks between triple quotes.
 
     Raises TypeError or ValueError for a value that is no dict, list, tuple, text, boolean or number.
     """
     if isinstance(value, dict):
-        return f"{{ {', '.join(f'{key} = {written(item)}' for key, item in value.items() if item is not None)} }}"
+        return f"{{ {', '.join(f'{key} = {source(item)}' for key, item in value.items() if item is not None)} }}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(written, value))}]"
+        return f"[{', '.join(map(source, value))}]"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

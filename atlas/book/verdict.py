@@ -5,7 +5,7 @@ from fractions import Fraction
 from math import hypot
 from typing import Any
 
-from atlas.book.tables.properties import Thing
+from atlas.book.tables.properties import FamilyObject
 from atlas.motions.register import Family
 
 NEEDLE = 0.1
@@ -16,7 +16,7 @@ NEAR_BALL = 0.01
 """|I - 1| below which a body is called nearly a ball."""
 
 
-def stands(ratio: float) -> str:
+def shape_words(ratio: float) -> str:
     """Return words on a body's shape by its ratio I3/I2, from "nearly a needle" below 0.1 to "a disk or loop" at 2.
 
     "a ball" stands at 1 exactly and "a disk or loop" at 2 exactly, "nearly a ball" within 0.01 of 1.
@@ -32,7 +32,7 @@ def stands(ratio: float) -> str:
     return "longer than a ball" if ratio < 1.0 else "flatter than a ball"
 
 
-def verdict(item: Thing) -> str:
+def verdict(item: FamilyObject) -> str:
     """Return words on the kind of an object's motion and, where known, its stability against small nutations.
 
     For an object without a start they say that all motions are shown.
@@ -57,13 +57,13 @@ def verdict(item: Thing) -> str:
     return says if stable is None else f"{says}, {'stable' if stable else 'unstable'} against small nutations"
 
 
-def has_mean_rates(item: Thing) -> bool:
+def has_mean_rates(item: FamilyObject) -> bool:
     """Return whether the axis of a motion goes round unevenly, so that its rate of precession is a mean."""
     kind = str(getattr(item.kernels(), "kind", ""))
     return kind.startswith("nutation") or kind in {"ball", "Euler's top", "on a torus"}
 
 
-def is_stable(item: Thing) -> bool | None:
+def is_stable(item: FamilyObject) -> bool | None:
     """Return whether a motion whose axis keeps its angle is stable against small nutations.
 
     None where this is undecided, and for a motion whose axis nods.
@@ -108,7 +108,7 @@ def spins_on(moments: Sequence[Fraction], field: Sequence[Fraction], omega: Sequ
     return all(x > 0 for x in gaps) if all(gaps) else None
 
 
-def is_still(item: Thing) -> bool:
+def is_still(item: FamilyObject) -> bool:
     """Return whether a body is at rest, or spins about its symmetry or third axis along the field or without one.
 
     False for a top at rest whose axis is off the field, since it falls, and for an object without a start.
@@ -121,7 +121,7 @@ def is_still(item: Thing) -> bool:
     return not any((*transverse, *Omega[:2])) or ("field" in values and not any(Omega))
 
 
-def turns_over(item: Thing) -> bool:
+def turns_over(item: FamilyObject) -> bool:
     """Return whether a free body of three moments starts near its middle axis, so that it turns over again and again.
 
     Near means that this axis has `NEAR_MIDDLE` of the angular momentum.

@@ -17,13 +17,13 @@ from atlas.bodies.laboratory import Disturbance, Spinning, disturbances
 from atlas.book import toml
 from atlas.book.bibliography import software
 from atlas.book.blocks.explorer import sliders_of
-from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, thing_of
+from atlas.book.card import ENTRIES, ONE_PERIOD, card, centre_of, has_card, object_of
 from atlas.book.digits import Number, plain, spaced
-from atlas.book.elsewhere import near, reproduced
+from atlas.book.elsewhere import neighbours, reproduced
 from atlas.book.markdown import fenced
 from atlas.book.measurement import measurement_of
 from atlas.book.parts import (
-    Asked,
+    ReportRequest,
     case_of,
     closed_of,
     deviations_of,
@@ -37,7 +37,7 @@ from atlas.book.parts import (
     too_slow,
 )
 from atlas.book.templates import versions
-from atlas.book.verdict import has_mean_rates, is_still, place_of, stands, turns_over, verdict
+from atlas.book.verdict import has_mean_rates, is_still, place_of, shape_words, turns_over, verdict
 from atlas.places import folder
 
 NAME = "your_body"
@@ -53,7 +53,7 @@ PART = {"quadric": "body", "hyperbola": "body", "frequencies": "maps", "stabilit
 """Part of a report to which a figure belongs, by recipe; all others are of the motion."""
 
 
-def body_named(request: Asked, card: Mapping[str, Any]) -> str:
+def body_named(request: ReportRequest, card: Mapping[str, Any]) -> str:
     """Return the body in words, with its size or its moments as they were typed."""
     options = request.options
     if "shape" in options:
@@ -70,22 +70,22 @@ def body_named(request: Asked, card: Mapping[str, Any]) -> str:
     return f"body with the moments {', '.join(map(plain, request.values['inertia']))}"
 
 
-def title_of(request: Asked, card: Mapping[str, Any], says: str) -> str:
+def title_of(request: ReportRequest, card: Mapping[str, Any], says: str) -> str:
     """Return the title of a report: the body, the time of one turn, and the verdict `says`; `card` has the numbers.
 
     Of an object without a card it is the object's description.
     """
     if not has_card(request.family):
-        return thing_of(request).says
+        return object_of(request).says
     turn, body = card["turn"], body_named(request, card)
     subject = f"{'An' if body[0] in 'aeiou' else 'A'} {body}"
     if turn["value"] is None:
         return f"{subject}: {says}"
-    mean = " on average" * has_mean_rates(thing_of(request))
+    mean = " on average" * has_mean_rates(object_of(request))
     return f"{subject} turns about {centre_of(request)} once in {_lasting(turn)}{mean}; {says}"
 
 
-def sign_of(request: Asked) -> str:
+def sign_of(request: ReportRequest) -> str:
     """Return a sentence on the direction of B' if charge or charge-to-mass ratio is negative, else ""."""
     record = {**(request.body or {}), **(request.field or {})}
     if not any(Fraction(record.get(name) or 0) < 0 for name in ("charge", "charge_to_mass")):
@@ -93,7 +93,7 @@ def sign_of(request: Asked) -> str:
     return "The charge is negative: B\N{PRIME} points against B, and arrows named B in the figures show B\N{PRIME}."
 
 
-def shape_of(request: Asked) -> dict[str, Any] | None:
+def shape_of(request: ReportRequest) -> dict[str, Any] | None:
     """Return parameters of the body's picture: {"is_ball": True}, or {"radius": m, "height": m}.
 
     The first is for a sphere or spherical shell. A shape without a radius or height, such as a rod or a ring, has 0 for
@@ -107,7 +107,7 @@ def shape_of(request: Asked) -> dict[str, Any] | None:
     return {"radius": body.get("radius", 0.0), "height": body.get("height", body.get("length", 0.0))}
 
 
-def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
+def maps_of(request: ReportRequest) -> dict[str, dict[str, Any]]:
     """Return the parameters of the figures on all motions of the body, by recipe; {} without a body or field.
 
     Each value is a dict of the recipe's parameters by name, empty where the report's body and field suffice.
@@ -126,7 +126,7 @@ def maps_of(request: Asked) -> dict[str, dict[str, Any]]:
     }  # fmt: skip
 
 
-def evaluated(request: Asked) -> dict[str, Any]:
+def evaluated(request: ReportRequest) -> dict[str, Any]:
     """Return the inputs as evaluated, a dict for JSON: equal for two ways to type one body.
 
     Its keys are family, time, values, and where there are such body, field, sigma and parts.
@@ -140,24 +140,24 @@ def evaluated(request: Asked) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def digest_of(request: Asked) -> str:
+def digest_of(request: ReportRequest) -> str:
     """Return eight hexadecimal digits of the SHA-256 of the evaluated inputs."""
     return sha256(json.dumps(evaluated(request), sort_keys=True).encode()).hexdigest()[:8]
 
 
-def name_of(request: Asked) -> str:
+def name_of(request: ReportRequest) -> str:
     """Return the report's name: the given name, or "your_body", then "-" and the digest of the inputs."""
-    return f"{request.called or NAME}-{digest_of(request)}"
+    return f"{request.file_name or NAME}-{digest_of(request)}"
 
 
-def inputs_of(request: Asked) -> str:
+def inputs_of(request: ReportRequest) -> str:
     """Return the text of NAME.inputs.toml: inputs as typed and as evaluated, defaults, digest, versions; no clock."""
     omitted = [
         p.name
         for p in request.family.parameters
         if p.option and p.omitted is not None and p.name in request.values and p.name not in request.options
     ]
-    option_lines = "".join(f"{OPTION if word.startswith('--') else ' '}{toml.written(word)}," for word in request.words)
+    option_lines = "".join(f"{OPTION if word.startswith('--') else ' '}{toml.source(word)}," for word in request.words)
     content = {"defaults": omitted, "digest": digest_of(request),
                "evaluated": evaluated(request), "versions": versions()}  # fmt: skip
     return f"# {request.command}\ntyped = [{option_lines.removeprefix(' ')}\n]\n" + "".join(toml.lines(content))
@@ -170,7 +170,7 @@ def works() -> str:
     return f"{paper[0] if paper else ''}\n{software()}"
 
 
-def files_of(request: Asked) -> dict[str, str]:
+def files_of(request: ReportRequest) -> dict[str, str]:
     """Return the files of a report, texts by name: its Markdown, card, inputs and BibTeX, the recipe of its picture.
 
     The last only where the report shows the body's picture.
@@ -197,12 +197,12 @@ def files_of(request: Asked) -> dict[str, str]:
     return made_files
 
 
-def template_values(request: Asked, card: Mapping[str, Any]) -> dict[str, Any]:
+def template_values(request: ReportRequest, card: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values that the report's template sees, by name: words, rows of the card, and fenced blocks.
 
     `card` is the card of `request`.
     """
-    family, shape, item, ratio = request.family, shape_of(request), thing_of(request), card["ratio"]["value"]
+    family, shape, item, ratio = request.family, shape_of(request), object_of(request), card["ratio"]["value"]
     motion, effects, left_out = item.kernels(), list(disturbances_of(request, card)), list[str]()
     figures, closed, measured = figures_by_part(request, left_out), list[str](), list[str]()
     if shape and "card" in request.parts:
@@ -224,14 +224,14 @@ def template_values(request: Asked, card: Mapping[str, Any]) -> dict[str, Any]:
         "place": place_of(family, motion), "sign": sign_of(request), "command": request.command, "note": request.note,
         "parts": list(request.parts), "family": family.name, "follows": bool(family.sampled), "card": [*_rows(card)],
         "outweighed": outweighed(effects), "outweighed_by": [effect.says for effect in effects if effect.outweighs],
-        "disturbances": [*map(_row_of, effects)], "ratio": ratio, "stands": "" if ratio is None else stands(ratio),
+        "disturbances": [*map(_row_of, effects)], "ratio": ratio, "stands": "" if ratio is None else shape_words(ratio),
         "figures": figures, "left_out": left_out, "symmetric": bool(request.body), "others": [*map(fenced, tables)],
         "deviations": "".join(map(fenced, deviations_of(request))), "closed": "".join(closed + measured),
         "explorer": "".join(map(fenced, explorer_of(request, left_out) if "card" in request.parts else ())),
         "properties": fenced(table_of(request, "properties", family.name, request.exact_values)),
         "setting": "".join(map(fenced, setting_of(request))),
         "again": reproduced(request, motion) if "elsewhere" in request.parts else None,
-        "neighbours": [[words, f"`{neighbour.command}`"] for words, neighbour in near(request)],
+        "neighbours": [[words, f"`{neighbour.command}`"] for words, neighbour in neighbours(request)],
     }  # fmt: skip
 
 
@@ -246,14 +246,14 @@ def _lasting(entry: Mapping[str, Any]) -> str:
     return f"{time} {entry['unit'].replace('time', 'units of time')}"
 
 
-def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]:
+def figures_by_part(request: ReportRequest, left_out: list[str]) -> dict[str, list[str]]:
     """Return lists of fenced figure blocks by part (card, body, motion, maps), only of those parts that the report has.
 
     Sentences on why some figures are missing are added to `left_out`.
     """
     maps = maps_of(request)
     candidates = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}
-    if "asymmetric_motion" in candidates and turns_over(thing_of(request)):
+    if "asymmetric_motion" in candidates and turns_over(object_of(request)):
         candidates["asymmetric_motion"] = {"turns": 12.0}  # as many as its panel of Omega has at most
     asked_for = {name: values for name, values in candidates.items() if PART.get(name, "motion") in request.parts}
     for name, reason in without_change(request) if "motion" in request.parts else ():
@@ -265,9 +265,9 @@ def figures_by_part(request: Asked, left_out: list[str]) -> dict[str, list[str]]
     return figures
 
 
-def without_change(request: Asked) -> Iterator[tuple[str, str]]:
+def without_change(request: ReportRequest) -> Iterator[tuple[str, str]]:
     """Yield (recipe, reason) of each figure on which nothing of the request's motion would change."""
-    item = thing_of(request)
+    item = object_of(request)
     motion = item.kernels()
     if is_still(item):
         reason = "Trace, spectrum and course in time: axis and angular velocity are constant."
@@ -285,7 +285,7 @@ def without_change(request: Asked) -> Iterator[tuple[str, str]]:
             yield "spectrum", f"The spectrum: down to {LEAST:g} of the whole {says}."
 
 
-def explorer_of(request: Asked, left_out: list[str]) -> Iterator[dict[str, Any]]:
+def explorer_of(request: ReportRequest, left_out: list[str]) -> Iterator[dict[str, Any]]:
     """Yield the block of an explorer of a symmetric body in a field, from its start.
 
     Without such a body, field and start, and for values beyond the sliders, nothing is yielded, and the reason is
@@ -334,7 +334,7 @@ def _rows(card: Mapping[str, Mapping[str, Any]]) -> Iterator[list[str]]:
         yield [entry["says"], entry["letter"], value, entry["unit"] or "", proven, equation]
 
 
-def disturbances_of(request: Asked, card: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
+def disturbances_of(request: ReportRequest, card: Mapping[str, Mapping[str, Any]]) -> Iterator[Disturbance]:
     """Yield a `Disturbance` for each neglected effect, such as gravity; `card` is the card of `request`.
 
     Nothing is yielded without a shape, a mass or density, and a field B in SI.
@@ -367,7 +367,7 @@ def _row_of(effect: Disturbance) -> list[str]:
             effect.unit, effect.formula, effect.verdict]  # fmt: skip
 
 
-def _absent(request: Asked, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
+def _absent(request: ReportRequest, shape: Mapping[str, Any] | None, is_told: bool) -> Iterator[str]:
     """Yield sentences on parts that this report lacks, with the reason of each.
 
     `shape` are the parameters of the body's picture or None; `is_told` says that neglected effects are told.

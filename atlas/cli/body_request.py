@@ -40,7 +40,7 @@ from atlas.motions.register import FAMILIES, Family
 from atlas.places import folder
 
 if TYPE_CHECKING:
-    from atlas.book.parts import Asked
+    from atlas.book.parts import ReportRequest
 
 TYPED = "atlas.cli.body_request.typed"
 """Key of the file of inputs whose words are read, a `TypedFile`."""
@@ -140,7 +140,7 @@ class OneObject(Command):
 
 
 def command_of(family: Family) -> click.Command:
-    """Return the click command of a report on an object of a family; it returns (`Asked`, options by name)."""
+    """Return the click command of a report on an object of a family; it returns (`ReportRequest`, options by name)."""
     page_options = [
         report_options("build/report"),
         click.option(
@@ -156,7 +156,7 @@ def command_of(family: Family) -> click.Command:
         click.option("--note", default="", hidden=True),
     ]
 
-    def run(**options: Any) -> tuple["Asked", dict[str, Any]]:
+    def run(**options: Any) -> tuple["ReportRequest", dict[str, Any]]:
         return with_errors(report_request(family, options), options)
 
     summary = family.command.summary if family.command else ""
@@ -273,7 +273,7 @@ def refuse(faults: Sequence[tuple[str, Exception]]) -> NoReturn:
     raise FaultsError(f"{file.place(text) if file else ''}{text}" for text in says) from faults[0][1]
 
 
-def with_errors(request: "Asked", options: dict[str, Any]) -> tuple["Asked", dict[str, Any]]:
+def with_errors(request: "ReportRequest", options: dict[str, Any]) -> tuple["ReportRequest", dict[str, Any]]:
     """Return (request, options); for uncertain options the request has deviations of the card's numbers in `sigma`.
 
     `options` are the command's, by name, and are not changed.
@@ -418,12 +418,12 @@ def best(words: Words) -> str:
     return min(COMMANDS, key=misfit)
 
 
-def report_request(family: Family, options: dict[str, Any]) -> "Asked":
-    """Return the request, an `Asked`, of a report from the options of its command by name.
+def report_request(family: Family, options: dict[str, Any]) -> "ReportRequest":
+    """Return the request, an `ReportRequest`, of a report from the options of its command by name.
 
     Raises FaultsError for faulty options, each in a line, and for an object that cannot be.
     """
-    from atlas.book.parts import Asked
+    from atlas.book.parts import ReportRequest
 
     body.check_speeds(options)
     if faults := [*faults_of(family, options)]:
@@ -465,8 +465,8 @@ def report_request(family: Family, options: dict[str, Any]) -> "Asked":
         records |= dict(zip(("deviations", "deviation_notes"), deviations, strict=True))
     only, is_page = options["only"], bool(context and context.parent and context.parent.command.name == "page")
     only = only if family.sampled or not is_page else ""  # all that there is of a body without a start
-    return Asked(
-        family, typed_options, values, **records, digits=digits, title=title, called=stem, note=options["note"],
+    return ReportRequest(
+        family, typed_options, values, **records, digits=digits, title=title, file_name=stem, note=options["note"],
         exact=exact, parts=only.split(",") if only else PARTS, only=only, is_page=is_page,
     )  # fmt: skip
 

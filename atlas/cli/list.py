@@ -144,10 +144,10 @@ def _keys_of(kinds: Iterable[type]) -> Iterator[tuple[str, dict[str, bool]]]:
     from msgspec.structs import fields
 
     from atlas.book.schema import StrictStruct
-    from atlas.book.tables.properties import Thing
+    from atlas.book.tables.properties import FamilyObject
 
     for kind in kinds:
-        if kind is Thing:
+        if kind is FamilyObject:
             yield from ((key, {"needed": key == "family"}) for key in ("family", "PARAMETER", "time", "units", "given"))
         elif issubclass(kind, StrictStruct):
             yield from ((key.name, {"needed": key.required}) for key in fields(kind))

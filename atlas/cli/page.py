@@ -25,7 +25,7 @@ from atlas.cli.words import Command
 from atlas.cli.your_body import build, write_and_print
 
 if TYPE_CHECKING:
-    from atlas.book.parts import Asked
+    from atlas.book.parts import ReportRequest
 
 FORMATS = ("single", "pdf")
 
@@ -63,7 +63,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 
 def motion_of(motion: Any) -> Any:
-    """Return the request, an `Asked`, of a report on a motion object of Python, along its principal axes."""
+    """Return the request, an `ReportRequest`, of a report on a motion object of Python, along its principal axes."""
     principal = in_principal_axes(motion, fitted=True)
     with COMMANDS[principal.family.page].make_context(principal.family.name, principal.options) as context:
         return report_request(principal.family, context.params)
@@ -105,8 +105,8 @@ def command() -> None:
 
 
 @command.result_callback()
-def make(request: "int | tuple[Asked, dict[str, Any]]") -> int:
-    """Write the page of a request, (`Asked`, options), and print where it is; return the exit status.
+def make(request: "int | tuple[ReportRequest, dict[str, Any]]") -> int:
+    """Write the page of a request, (`ReportRequest`, options), and print where it is; return the exit status.
 
     An int is the exit status of a page of a fit, which is already made.
     """

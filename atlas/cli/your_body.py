@@ -21,7 +21,7 @@ from atlas.measured import WANTED, split
 
 if TYPE_CHECKING:
     from atlas.book.building.report import Built
-    from atlas.book.parts import Asked
+    from atlas.book.parts import ReportRequest
 
 FORMATS = ("html", "pdf")
 FIGURE = "```{figure}"
@@ -29,7 +29,7 @@ FIGURE = "```{figure}"
 
 
 def built(
-    request: "Asked", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
+    request: "ReportRequest", out: Path, jobs: int | None, formats: Sequence[str] = FORMATS
 ) -> "tuple[Built, dict[str, Any]]":
     """Write the report of a request, its card and its inputs into the folder `out`; return (`Built`, card).
 
@@ -165,7 +165,7 @@ def text_of(number: Any) -> str:
     return repr(float(number))
 
 
-def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
+def request_of(words: Sequence[str]) -> "tuple[ReportRequest, dict[str, Any]]":
     """Return (request, options by name) from the words of a command.
 
     Raises
@@ -174,7 +174,7 @@ def request_of(words: Sequence[str]) -> "tuple[Asked, dict[str, Any]]":
         For words that give no body, field and start, in one sentence.
     """
     try:
-        request: tuple[Asked, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main(
+        request: tuple[ReportRequest, dict[str, Any]] = YourBody(NAME, commands=COMMANDS).main(
             [*words], "atlas report", standalone_mode=False
         )
     except click.ClickException as error:
@@ -215,12 +215,12 @@ def command() -> None:
 
 
 @command.result_callback()
-def make(request: "tuple[Asked, dict[str, Any]]") -> int:
+def make(request: "tuple[ReportRequest, dict[str, Any]]") -> int:
     """Write a report, of (request, options), and print its files' paths; return the status, 1 if a figure failed."""
     return write_and_print(*request, FORMATS)
 
 
-def write_and_print(request: "Asked", options: Mapping[str, Any], formats: Sequence[str]) -> int:
+def write_and_print(request: "ReportRequest", options: Mapping[str, Any], formats: Sequence[str]) -> int:
     """Write the report of a request in these formats, print its files' paths; return 1 if a figure failed, else 0.
 
     `options` are the command's, by name, of which folder, processes and --explain are used.

@@ -314,7 +314,7 @@ def test_without_gl_a_line_drawing_replaces_a_shaded_figure_with_a_notice(
 
 @pytest.mark.slow
 def test_a_figure_in_the_plane_is_never_shaded(tmp_path: Path) -> None:
-    """Asked for shaded, a figure without a panel in space says in one line which library drew it."""
+    """ReportRequest for shaded, a figure without a panel in space says in one line which library drew it."""
     words = ["figure", "hyperbola", "--renderer", "shaded", "--out", str(tmp_path)]
     for _ in ("drawn", "taken from the store"):
         result = CliRunner().invoke(command, words, standalone_mode=False)

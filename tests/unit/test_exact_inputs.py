@@ -19,7 +19,7 @@ from atlas.bodies.certified_body import shape_moments
 from atlas.bodies.integrals import shape_factors
 from atlas.book import body_and_field as body_records
 from atlas.book.parts import case_of, table_of
-from atlas.book.tables.properties import Thing
+from atlas.book.tables.properties import FamilyObject
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.body_request import COMMANDS
@@ -211,7 +211,7 @@ def test_a_page_of_three_components_takes_the_product_without_rounding() -> None
     with COMMANDS["asymmetric"].make_context("asymmetric", words.split()) as context:
         request = page_request(FAMILIES["asymmetric"], context.params)
     parameters = table_of(request, "properties", "asymmetric", request.exact_values)["parameters"]
-    report_thing = Thing.of(Request([body_records.body_and_field(None, None)], parameters, 10))
+    report_thing = FamilyObject.from_request(Request([body_records.body_and_field(None, None)], parameters, 10))
     product = [Fraction(1.3) * Fraction(B) / 2 for B in (0.2, 0.7, -0.3)]
     assert [Fraction(int(x.p), int(x.q)) for x in report_thing.balls().field] == product
     assert [Fraction(*x.as_integer_ratio()) for x in report_thing.kernels().arguments["field"]] == product

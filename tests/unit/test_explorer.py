@@ -18,7 +18,7 @@ from atlas.book.definition import Thumbnail
 from atlas.book.html import CARD, cards, pages, thumbnail
 from atlas.book.load import load
 from atlas.book.pictures import pictures
-from atlas.book.scripts import script, written
+from atlas.book.scripts import function_source, script
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES
 from atlas.pictures.drawing.style import context, style_of
@@ -288,7 +288,7 @@ def test_plotted_lines_have_the_colours_of_the_figures() -> None:
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 def test_the_explorer_takes_formulas_and_looks_from_python() -> None:
     """A formula that changes in Python changes in the script, whose own text has no colour but one that is paler."""
-    changed = written("ordinate", lambda I2, I, B2, B3, w: I2 * abs(I) - B2 / (B3 + w), "I B2 B3 omega2")
+    changed = function_source("ordinate", lambda I2, I, B2, B3, w: I2 * abs(I) - B2 / (B3 + w), "I B2 B3 omega2")
     assert run(f"console.log(({{{changed}}}).ordinate(-2, 3, 4, 8))", None) == 2 - 3 / 12
     text = (folder("templates") / "html" / "explorer.js").read_text("utf-8")
     assert re.findall(r"#[0-9a-f]{6}", text) == ["#b9c7e2"]

@@ -226,7 +226,7 @@ def test_a_command_loads_its_listed_modules_alone(room: Room, case: Case) -> Non
 
 @pytest.mark.slow
 def test_a_figure_from_the_store_loads_no_drawing_library(room: Room) -> None:
-    """Asked for again, also in another format that is there, a figure is taken as it is."""
+    """ReportRequest for again, also in another format that is there, a figure is taken as it is."""
     room.run("figure lssc --format svg pdf --out twice", 0)
     assert room.run("figure lssc --format svg --out twice", 0) == {"numpy", "flint", "multiprocessing"}
 

@@ -22,9 +22,9 @@ from tests_support import few_figures
 from atlas import processes
 from atlas.book.body_and_field import Body, Field, body_and_field
 from atlas.book.building.formats import single
-from atlas.book.card import thing_of
+from atlas.book.card import object_of
 from atlas.book.markdown import read
-from atlas.book.parts import Asked
+from atlas.book.parts import ReportRequest
 from atlas.book.tables import compute
 from atlas.book.tables.closed import convergents
 from atlas.book.tables.properties import lettered
@@ -426,10 +426,10 @@ def test_a_report_of_several_pages_is_not_one_file() -> None:
 @pytest.mark.slow
 def test_a_body_without_a_field_is_free_and_its_times_have_a_unit() -> None:
     """No caption and no heading calls it charged, or says how strong no field is; a time is never a bare number."""
-    request = Asked(FAMILIES["asymmetric"], {}, {
+    request = ReportRequest(FAMILIES["asymmetric"], {}, {
         "inertia": [1.0, 3.0836, 3.235], "field": [0.0, 0.0, 0.0], "omega": [-1.7, 0.25, 0.588],
     }, time="s")  # fmt: skip
-    assert thing_of(request).says == "Any motion of a free body of any three moments"
+    assert object_of(request).says == "Any motion of a free body of any three moments"
     for unit, words in (("s", "over 20.8 s,"), ("time", "over 20.8 units of time,")):
         scene = load("asymmetric_motion").scene(
             inertia=(1.0, 3.0836, 3.235), field=(0.0, 0.0, 0.0), omega=(-1.7, 0.25, 0.588), unit=unit
@@ -488,7 +488,7 @@ def test_each_root_has_a_row_of_its_own() -> None:
 
 def test_a_neighbour_has_no_negative_zero() -> None:
     """A link to it has the text that one would type."""
-    neighbour = Asked(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
+    neighbour = ReportRequest(FAMILIES["general"], {"ratio": ("1.5",), "omega": ("1", "2", "3")}, {}).changed(
         "general", omega=(-0.0, -1.0, 2.0)
     )
     assert neighbour.options["omega"] == ("0", "-1", "2")

@@ -9,7 +9,7 @@ from lxml import html
 from pypdf import PdfReader
 
 from atlas.book import bibliography
-from atlas.book.beside import Beside
+from atlas.book.beside import RelatedReports
 from atlas.book.blocks.explorer import Explorer
 from atlas.book.building.report import build_report
 from atlas.book.compose import compose
@@ -29,7 +29,9 @@ VOLUMES = ("atlas", "trial", "guide")
 def outline(name: str, *related: Document) -> Document:
     """Return a report in outline."""
     report = load(find(name))
-    return compose(report, pictures(report), beside=Beside(document.outline for document in related), outline=True)
+    return compose(
+        report, pictures(report), related=RelatedReports(document.outline for document in related), outline=True
+    )
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +49,7 @@ def cited(document: Document) -> Iterator[Link]:
     for text in document.texts.texts:
         for name in citations(text.markdown):
             if (name in EQUATIONS or ":" in name) and not name.startswith("cell:"):
-                yield document.cite("html")(name, text.where)
+                yield document.cite("html")(name, text.place)
 
 
 def anchors(document: Document) -> set[tuple[str, str]]:

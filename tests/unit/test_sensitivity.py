@@ -229,7 +229,7 @@ def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: f
 @pytest.mark.parametrize("turn", [(0.4, 0.1, -0.6), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("size", [1e-6, 1e-9, 1e-14])
 def test_sensitivity_in_one_component_along_a_weak_field(turn: Any, size: float) -> None:
-    """Asked for alone: terms of the size of 1/|B'| cancel where inputs of the class are combined."""
+    """ReportRequest for alone: terms of the size of 1/|B'| cancel where inputs of the class are combined."""
     A, omega = Rotation.from_rotvec(turn).as_matrix(), (0.2, -0.3, 0.9)
     columns = [[rational(x) for x in column] for column in A.T.tolist()]
 

@@ -15,11 +15,11 @@ from scipy.spatial.transform import Rotation
 from syrupy.assertion import SnapshotAssertion
 
 from atlas.bodies.laboratory import Spinning, anisotropy, demagnetization, disturbances
-from atlas.book.card import ONE_PERIOD, card, thing_of
+from atlas.book.card import ONE_PERIOD, card, object_of
 from atlas.book.load import load
 from atlas.book.markdown import fenced, read
-from atlas.book.parts import Asked
-from atlas.book.verdict import spins_on, stands, verdict
+from atlas.book.parts import ReportRequest
+from atlas.book.verdict import shape_words, spins_on, verdict
 from atlas.book.your_body import explorer_of, files_of, name_of, sign_of, template_values, title_of
 from atlas.cli.app import main
 from atlas.cli.your_body import request_of as words_to_request
@@ -52,7 +52,7 @@ CASES = {
 }
 
 
-def request_of(words: str | list[str]) -> Asked:
+def request_of(words: str | list[str]) -> ReportRequest:
     """Return the request that the options of a command are."""
     return words_to_request(words.split() if isinstance(words, str) else words)[0]
 
@@ -62,7 +62,7 @@ def test_the_cards_numbers_are_kept(name: str, snapshot: SnapshotAssertion) -> N
     """Digits, proven digits, units and reasons of each case, and its title."""
     request = request_of(CASES[name])
     result = card(request)
-    title = title_of(request, result, verdict(thing_of(request)))
+    title = title_of(request, result, verdict(object_of(request)))
     keys = ("digits", "proven_digits", "unit", "reason")
     assert {"title": title} | {key: [entry[k] for k in keys] for key, entry in result.items()} == snapshot
 
@@ -221,7 +221,7 @@ def test_inputs_are_as_typed_and_as_evaluated() -> None:
 )
 def test_a_ratio_has_a_place_between_needle_and_disk(ratio: float, words: str) -> None:
     """One function says where I stands."""
-    assert words in stands(ratio)
+    assert words in shape_words(ratio)
 
 
 @pytest.mark.parametrize("text", ["typed = 5", "x = 1", "[", ""])
@@ -328,7 +328,7 @@ def test_a_report_is_built_whole(tmp_path: Path, capsys: pytest.CaptureFixture[s
 )
 def test_a_steady_motion_says_whether_it_is_stable(words: str, says: str) -> None:
     """A disk near Larmor's turn, the middle axis, a start in the unstable band; and their stable neighbours."""
-    assert f", {says} against small nutations" in verdict(thing_of(request_of(words)))
+    assert f", {says} against small nutations" in verdict(object_of(request_of(words)))
 
 
 def test_a_spin_is_stable_where_no_eigenvalue_grows() -> None:

@@ -106,7 +106,7 @@ class Composer:
         It is the list in `uses`, to which later uses of this report are added.
         """
         uses: list[Use] = self.uses[name]
-        answers = self.document.beside.ask("uses", name)
+        answers = self.document.related.ask("uses", name)
         uses[:0] = [use for answer in answers for use in (Use(*words) for words in answer) if use not in uses]
         return uses
 

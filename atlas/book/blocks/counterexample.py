@@ -33,7 +33,7 @@ _CALLS = {
 }
 
 
-def written(values_by_name: Mapping[str, str], section: str) -> str:
+def counterexample_text(values_by_name: Mapping[str, str], section: str) -> str:
     """Return a counterexample in Markdown with TeX: values of the letters, and the broken equation or a reason.
 
     `values_by_name` holds the values as text by letter, and under "relation", "left", "right" the broken equation

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from atlas.book.appendices import Finding
 from atlas.book.blocks.composer import Composer, Use
-from atlas.book.blocks.counterexample import written
+from atlas.book.blocks.counterexample import counterexample_text
 from atlas.book.schema import StrictStruct
 from atlas.trial.ledger import EQUATIONS
 from atlas.trial.ledger.equation import Equation, slug
@@ -85,7 +85,9 @@ def _entry(entry: Equation, finding: Finding, composer: Composer) -> EntryView:
         how=composer.text(how, inline=True),
         corrected=composer.text(_display(finding.corrected)) if finding.corrected else None,
         note=words(finding.note),
-        counterexample=words(written(finding.counterexample, entry.section) if finding.counterexample else ""),
+        counterexample=words(
+            counterexample_text(finding.counterexample, entry.section) if finding.counterexample else ""
+        ),
         quote=words(f"“{entry.quote}”" if entry.quote else ""),
         false=words(f"“{finding.false}.”" if finding.false else ""),
         said=words("; ".join(_reading(*pair) for pair in finding.said.items())),

@@ -71,9 +71,9 @@ class FigureBuild:
 
         It has "shaded" if that is the renderer, and "for" with the names of `targets` if there are any.
         """
-        from atlas.book.digits import shown
+        from atlas.book.digits import markdown_of
 
-        settings = ", ".join(f"{key}={shown(value)}" for key, value in self.parameters.items())
+        settings = ", ".join(f"{key}={markdown_of(value)}" for key, value in self.parameters.items())
         targets = f" for {' or '.join(self.targets)}" if self.targets else ""
         return f"{self.stem}({settings})" + (" shaded" if self.renderer == "shaded" else "") + targets
 
@@ -82,13 +82,13 @@ class FigureBuild:
         """Text on the result: "failed: ...", "drawn: ..." or "taken: ...", with the cause."""
         return f"failed: {self.failure}" if self.failure else f"{'drawn' if self.new else 'taken'}: {self.why}"
 
-    def missing(self) -> dict[str, str]:
+    def missing_keys(self) -> dict[str, str]:
         """Return the keys in the cache by kind of file while the figure's files are not loaded, else {}."""
         return {} if self.contents else dict(self.keys)
 
     def take(self, cache: Cache) -> None:
         """Set `contents` and `facts` from the cache if the files of all kinds are there; otherwise change nothing."""
-        entries = {kind: entry for kind, key in self.missing().items() if (entry := cache.get(key)) is not None}
+        entries = {kind: entry for kind, key in self.missing_keys().items() if (entry := cache.get(key)) is not None}
         if entries.keys() == self.keys.keys():
             for kind, entry in entries.items():
                 self.facts, self.contents[kind] = worker.read(entry)
@@ -129,7 +129,7 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
         figure.parts = parts_of(figure, sources, gl)
         figure.keys = {kind: digest(figure.stem, figure.parts, kind) for kind in figure.kinds}
         figure.take(cache)
-        if figure.missing():
+        if figure.missing_keys():
             figure.why = _why(figure, cache)
         cache.save(figure.name, figure.parts)
     for figure in figures:
@@ -159,11 +159,11 @@ def draw(figures: Sequence[FigureBuild], cache: Cache, jobs: int, progress: Prog
     longest. `progress` is called after each with (figures done, number of figures, stem); cached ones count as done.
     Raises OSError when the cache can't be written.
     """
-    queue = sorted((build for build in figures if build.missing()), key=lambda build: build.renderer != "shaded")
+    queue = sorted((build for build in figures if build.missing_keys()), key=lambda build: build.renderer != "shaded")
     for done, (figure, failure) in enumerate(_finished_figures(queue, cache, jobs), len(figures) - len(queue) + 1):
         figure.new, figure.failure = True, failure
         figure.take(cache)
-        if figure.missing() and not failure:
+        if figure.missing_keys() and not failure:
             raise OSError(f"what was drawn is not in {cache.folder}; was it removed?")
         progress(done, len(figures), figure.stem)
 
@@ -177,7 +177,13 @@ def _finished_figures(figures: Sequence[FigureBuild], cache: Cache, jobs: int) -
     settle_matplotlib()
     waiting = {
         build: worker.Task(
-            build.recipe, build.parameters, build.renderer, build.style, build.missing(), cache.folder, build.targets
+            build.recipe,
+            build.parameters,
+            build.renderer,
+            build.style,
+            build.missing_keys(),
+            cache.folder,
+            build.targets,
         )
         for build in figures
     }

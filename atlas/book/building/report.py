@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from atlas.book.beside import Beside, Outline
+from atlas.book.beside import Outline, RelatedReports
 from atlas.book.building.cache import Cache
 from atlas.book.building.formats import LANGUAGES, files_of, set_texts
 from atlas.book.building.publish import publish
@@ -150,7 +150,7 @@ def _unchanged(
     """Return the `Built` of the existing report if each of its `formats` was built with this key, else None.
 
     None also where its files were edited, and where its related reports answer differently now than at that build, see
-    `Beside`. `name` is that of its folder in `out`.
+    `RelatedReports`. `name` is that of its folder in `out`.
     """
     record_before = cache.load(_noted(name, out))
     for form in formats:
@@ -257,15 +257,15 @@ def _publish(
 ) -> None:
     """Write the files of the format `form`, contents by path, into `out`; save digests, key and counts in the cache.
 
-    The answers of the related reports are saved too, see `Beside`. `key` is None if a figure failed, so that the next
-    build starts anew; `counts` are the numbers of pages and figures. Raises AtlasError for files that the user edited.
+    The answers of the `RelatedReports` are saved too. `key` is None if a figure failed, so that the next build starts
+    anew; `counts` are the numbers of pages and figures. Raises AtlasError for files that the user edited.
     """
     name = document.report.name
     record: dict[str, Any] = cache.load(_noted(name, out))
     before = [item for form in LANGUAGES for item in record.get(form, {"files": {}})["files"].items()]
     publish({form: files}, out, name, [f"{digest_before}  {path}" for path, digest_before in before])
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in files.items()}
-    record[form] = {"key": key, "files": digests, "beside": document.beside.answers}
+    record[form] = {"key": key, "files": digests, "beside": document.related.answers}
     cache.save(_noted(name, out), {**record, **counts})
 
 
@@ -303,8 +303,8 @@ def _reference(cache: Cache, sources: Sources) -> "dict[str, Described]":
     return msgspec.json.decode(content, type=dict[str, Described])
 
 
-def outlines(file: Path, cache: Cache, sources: Sources) -> Beside:
-    """Return a `Beside` with the outlines of the reports related to that of `file`: links, ledger entries and uses.
+def outlines(file: Path, cache: Cache, sources: Sources) -> RelatedReports:
+    """Return the `RelatedReports` of the report in `file`: outlines with links, ledger entries and uses.
 
     No table of theirs is computed. An outline that an earlier build has made comes from the cache; `sources`
     digests the code that it depends on.
@@ -323,7 +323,7 @@ def outlines(file: Path, cache: Cache, sources: Sources) -> Beside:
         answers: Outline = msgspec.json.decode(cache.recall(key, partial(outline, file)))
         return answers
 
-    return Beside(remembered(find(name)) for name in related_to(file))
+    return RelatedReports(remembered(find(name)) for name in related_to(file))
 
 
 def _places(out: Path, name: str) -> tuple[Path, Path]:
@@ -384,14 +384,14 @@ def describe(figure: "FigureBuild", picture: "Picture") -> None:
 
     Of a figure that failed only `failure` is set.
     """
-    from atlas.book.digits import shown
+    from atlas.book.digits import markdown_of
 
     picture.failure = figure.failure
     if not figure.failure:
         facts = figure.facts
         picture.tables = tuple(facts["commands"])
         picture.caption, picture.alt, picture.size = facts["caption"], facts["alt"], tuple(facts["size"])
-        picture.given = {name: shown(value) for name, value in facts["parameters"].items()}
+        picture.given = {name: markdown_of(value) for name, value in facts["parameters"].items()}
         kind, place = "svg" if "pdf" in figure.kinds else "png", f"figures/{picture.stem}"
         picture.file = f"{place}.{kind}"
         side_files = {"narrow": f"{place}-narrow.{kind}", "scene": f"{place}.js", "moves": f"{place}-moves.js"}

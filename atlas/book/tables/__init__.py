@@ -10,7 +10,7 @@ from atlas.book.tables.elementary import motion, points, quadric, samples, sheet
 from atlas.book.tables.families import quantities, roles, targets
 from atlas.book.tables.laboratory import beyond_larmor, fits, inferred, levitated, lines
 from atlas.book.tables.particle import ball, flight, particle
-from atlas.book.tables.properties import Thing, body_and_field, properties
+from atlas.book.tables.properties import FamilyObject, body_and_field, properties
 from atlas.book.tables.table import Data, Maker, Request
 from atlas.book.tables.tops import asymmetric, critical, elliptic, identified, monodromy, periods, tops
 from atlas.errors import unknown
@@ -40,10 +40,14 @@ def compute(name: str, request: Request) -> Data:
 
 
 def _converted_request(kind: type, request: Request) -> Any:
-    """Return the request itself, the `Thing` of its parameters, or the parameters as a record, whichever `kind` is.
+    """Return the request itself, the `FamilyObject` of its parameters, or these as a record, whichever `kind` is.
 
     Raises AtlasError for parameters that the kind does not take.
     """
     if kind is Request:
         return request
-    return Thing.of(request) if kind is Thing else convert(dict(request.parameters), kind, "parameters")
+    return (
+        FamilyObject.from_request(request)
+        if kind is FamilyObject
+        else convert(dict(request.parameters), kind, "parameters")
+    )

@@ -5,7 +5,7 @@ from typing import Any
 
 from atlas.book.digits import Number, plain
 from atlas.book.schema import StrictStruct
-from atlas.book.tables.properties import Thing
+from atlas.book.tables.properties import FamilyObject
 from atlas.book.tables.table import RATE, Data, Request, certified, column, columns_of, heads, quantity
 from atlas.errors import AtlasError, DomainError
 
@@ -15,7 +15,7 @@ PRINTED_DIGITS = 12
 """Digits that a double has for certain, and some to spare."""
 
 
-def closed(request: Request, item: Thing) -> Data:
+def closed(request: Request, item: FamilyObject) -> Data:
     """Return the table of best fractions p/q of phi/k, or of the turns in one nutation, each with its closed motion.
 
     For an elementary motion phi/k is the rate of proper rotation over that of precession (72). Any other motion has a
@@ -56,7 +56,7 @@ def closed(request: Request, item: Thing) -> Data:
     )  # fmt: skip
 
 
-def _elementary(item: Thing, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
+def _elementary(item: FamilyObject, value: Any, fractions: Any, misses: Any, digits: int) -> Data:
     """Return the table of closed elementary motions with phi/k = p/q, a row for each fraction that has one.
 
     `value` is phi/k, an interval (ball), phi the rate of proper rotation and k that of precession; `fractions` are

@@ -28,7 +28,7 @@ Row = tuple[str, str, str | Number, str, str, str]
 
 
 @dataclass(frozen=True)
-class Thing:
+class FamilyObject:
     """An object of a family: parameters as given, and arguments of its classes in floats and in exact numbers.
 
     `numbers` holds numbers for the table by the parameter's name; `floats` and `exact` are the arguments in the
@@ -43,7 +43,7 @@ class Thing:
     described: bool
 
     @classmethod
-    def of(cls, request: Request) -> "Thing":
+    def from_request(cls, request: Request) -> "FamilyObject":
         """Return the object of a request, whose parameters hold the family's name and its inputs, "time" or "units".
 
         Raises AtlasError for unknown or missing families and parameters.
@@ -124,7 +124,7 @@ def _units(name: Any) -> dict[str, str]:
     }  # fmt: skip
 
 
-def properties(request: Request, item: Thing) -> Data:
+def properties(request: Request, item: FamilyObject) -> Data:
     """Return the table of parameters and quantities of one object of a `family`; `time` is its unit of time.
 
     A row has six cells: meaning, name, value, unit, equation, and what is proven. With ``given = false`` the inputs are
@@ -147,7 +147,7 @@ def properties(request: Request, item: Thing) -> Data:
     )  # fmt: skip
 
 
-def _rows_given(item: Thing) -> Iterator[Row]:
+def _rows_given(item: FamilyObject) -> Iterator[Row]:
     """Yield six cells for each component of each input: words, name, value, unit, "", "given"."""
     for p in item.family.parameters:
         value = item.numbers[p.name]
@@ -159,7 +159,7 @@ def _rows_given(item: Thing) -> Iterator[Row]:
                 yield lettered(says), f"`{name}`", number, item.unit(p.unit), "", "given"
 
 
-def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
+def rows_of(item: FamilyObject, q: Quantity, digits: int) -> Iterator[Row]:
     """Yield six cells for each component of a quantity: meaning, name, value, unit, equation, what is proven.
 
     A quantity without a value has one row with a dash and the reason in the last cell. `item` is the object,
@@ -189,7 +189,7 @@ def rows_of(item: Thing, q: Quantity, digits: int) -> Iterator[Row]:
         )
 
 
-def _texts(item: Thing, q: Quantity, digits: int) -> Any:
+def _texts(item: FamilyObject, q: Quantity, digits: int) -> Any:
     """Return the certified values of a quantity as texts, nested as the quantity is; None where it has none.
 
     A quantity without certified digits is returned in doubles. Raises DomainError where it is not defined. `item`
@@ -217,7 +217,7 @@ def _components(q: Quantity, values: Any) -> Iterable[tuple[str, str, Any]]:
     return zip(names, words, values, strict=True)
 
 
-def _printed(item: Thing, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
+def _printed(item: FamilyObject, q: Quantity, text: Any, place: int | None, digits: int) -> tuple[str | Number, str]:
     """Return (value as a `Number` or text, words on its certainty) of a component's certified text.
 
     A value whose digits are not certified comes from the class in doubles. `place` is its index in the quantity, or
