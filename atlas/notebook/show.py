@@ -12,7 +12,7 @@ from atlas.bodies.body import SymmetricBody
 from atlas.bodies.display import Shown
 from atlas.book.digits import Number
 from atlas.book.tables.elementary import NONE
-from atlas.book.tables.properties import SPACE, Row, Thing, rows_of
+from atlas.book.tables.properties import SPACE, FamilyObject, Row, rows_of
 from atlas.errors import AtlasError
 from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import plot
@@ -61,7 +61,7 @@ def rows(subject: Shown) -> Sequence[Row]:
     count = bool(getattr(subject, "shape", ()))
     if family is None or count or subject.made_by or len(values) != len(family.parameters):
         return ()
-    item = Thing(family, {}, values, values, {}, described=False)
+    item = FamilyObject(family, {}, values, values, {}, described=False)
     return [row for q in family.quantities for row in rows_of(item, q, DIGITS) if row[2] != NONE]
 
 
