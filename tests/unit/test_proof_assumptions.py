@@ -75,7 +75,7 @@ def test_a_changed_assumption_is_not_proved(
 def test_a_definition_that_is_changed_does_not_hold(name: str) -> None:
     """Each equation that is read and holds, changed by a sign, number, letter or index, holds no longer."""
     case = trial(name)
-    models = trials._made((case.true_form or case).model)
+    models = trials._models_of((case.true_form or case).model)
     pairs = [pair for words in EQUATIONS[name].assumptions for pair in formulas(words)]
     for clause, formula in pairs:
         if "=" not in formula or any(mark in formula for mark in ANY):

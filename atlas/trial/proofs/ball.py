@@ -81,7 +81,7 @@ def larmor_model() -> Model:
     letters = {"alpha": alpha, "t": t, "m2": m2, "m3": m3, "mu": mu, "c": c, "b": b}
     bindings = [(alpha, mu * b / (2 * c)), *ANGLES[:2]]
     model = Model(letters, bindings, LARMOR, START, {alpha * t: (ca, sa)})
-    model.letters["about_B"] = model.about(E3)
+    model.letters["about_B"] = model.rotation_about(E3)
     return model
 
 
@@ -101,7 +101,7 @@ def _motion(spin: Value, bindings: list[tuple[Value, Value]]) -> Model:
     letters = {"alpha": alpha, "gamma": gamma, "t": t, "k2": k2, "k3": k3, "I0": I0, "m": spin, "m2": m2, "m3": m3}
     phases = {alpha * t: (ca, sa), gamma * t: (cg, sg)}
     model = Model(letters, bindings, {**LARMOR, **TURNING}, START, phases)
-    model.letters |= {"about_B": model.about(E3), "about_k": model.about(sympy.Matrix([0, k2, k3]))}
+    model.letters |= {"about_B": model.rotation_about(E3), "about_k": model.rotation_about(sympy.Matrix([0, k2, k3]))}
     return model
 
 

@@ -55,7 +55,7 @@ def frame_model() -> Model:
     model = Model(
         letters, [*bindings, (c, turn(q)[0]), (s, turn(q)[1])], flow, start, {b * t: (c, s)}, laws="R by (12)"
     )
-    model.letters["about_B"] = model.about(axis)
+    model.letters["about_B"] = model.rotation_about(axis)
     return model
 
 

@@ -78,21 +78,21 @@ def decide(
             relations, letters, bindings = understood(line, model, tuple(defines), solves)
         except NoMeaningError as reason:
             return Outcome("refuted", "indices", reason.example)
-        here = replace(model, letters=letters, bindings=bindings)
+        extended_model = replace(model, letters=letters, bindings=bindings)
         trees = parse(f"{line}; {solves}" if solves else line)
         example = _counterexample(
-            relations, here, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
+            relations, extended_model, tuple(name for tree in trees for name in letters_of(tree)), shrink=shrink
         )
         if example:
             return Outcome("refuted", "exact counterexample", example)
         idle = (
             _unknown(trees, model, defines)
-            or next((why for tree in trees if (why := _empty(tree, here))), "")
-            or _idle(relations, here, tuple(defines), f"{line}; {solves}" if solves else line)
+            or next((why for tree in trees if (why := _empty(tree, extended_model))), "")
+            or _idle(relations, extended_model, tuple(defines), f"{line}; {solves}" if solves else line)
         )
         if idle:
             return Outcome("undecided", idle)
-        methods += [] if sample_only else [_prove(relation, here) for relation in relations]
+        methods += [] if sample_only else [_prove(relation, extended_model) for relation in relations]
     if sample_only:
         return Outcome("supported", f"{SAMPLES * len(models)} exact points")
     if methods and all(methods):
@@ -131,7 +131,7 @@ def _understand(
             already.add(name)
             tree.left, tree.ops = tree.comparators.pop(0), tree.ops[1:]
             value = Reader(letters, model.ranges).value(tree.left, {})
-            bindings, letters[name] = _meant(name, value, letters) + bindings, value
+            bindings, letters[name] = _bindings_of(name, value, letters) + bindings, value
         if tree.comparators:
             claims.append(tree)
     reader = Reader(letters, model.ranges)
@@ -154,7 +154,7 @@ def defined(tree: ast.Compare, defines: tuple[str, ...]) -> str:
     return name if name in defines and tree.comparators else ""
 
 
-def _meant(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
+def _bindings_of(name: str, value: Value, letters: Mapping[str, Value]) -> list[tuple[Value, Value]]:
     """Return pairs (symbol, value) that replace the letter ``name`` where it stands before its definition as ``value``.
 
     There is one pair for each entry of a vector or matrix, and none where the letter's value in ``letters`` is no
@@ -198,9 +198,9 @@ def _unknown(trees: list[ast.Compare], model: Model, defines: Iterable[str]) -> 
     """
     vocabulary = {*defines, *model.letters} | {str(symbol) for symbol, _ in model.bindings}
     vocabulary |= {str(symbol) for value in model.letters.values() for symbol in getattr(value, "free_symbols", ())}
-    strange = {name for tree in trees for name in letters_of(tree)} - vocabulary
-    if strange:
-        return f"unreadable: {', '.join(sorted(strange))} means nothing here"
+    unknown_letters = {name for tree in trees for name in letters_of(tree)} - vocabulary
+    if unknown_letters:
+        return f"unreadable: {', '.join(sorted(unknown_letters))} means nothing here"
     calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
     pairs = [call.args for call in calls if _name(call) in {"br", "cross"}]  # zero, whatever stands in them
     every: list[Sequence[ast.AST]] = [trees, *([tree.left, *tree.comparators] for tree in trees), *pairs]

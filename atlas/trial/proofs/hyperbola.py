@@ -2,7 +2,7 @@
 
 import sympy
 
-from atlas.trial.proofs.model import Model, Value, certain, cross, turn
+from atlas.trial.proofs.model import Model, Value, cross, require, turn
 from atlas.trial.proofs.notation import conserved, sides
 from atlas.trial.proofs.pseudo_oscillator import I2, I3, mass, ratio, tensor
 from atlas.trial.proofs.quadric import (
@@ -111,7 +111,7 @@ def both_conditions_model() -> tuple[Model, Model]:
     """
     square = omega1**2 + omega2**2
     difference = I * B2**2 * omega3 - I * B2**2 * omega2**2 * omega3 / square
-    certain(sympy.cancel(difference - I * B2**2 * omega3 * omega1**2 / square) == 0)
+    require(sympy.cancel(difference - I * B2**2 * omega3 * omega1**2 / square) == 0)
     circle = [(omega3, sympy.Integer(0)), (omega2, -(2 - I) * B2 / (1 + s**2)), (omega1, s * omega2)]
     return Model(LETTERS, [(omega3, constant_omega3()), (omega1, sympy.Integer(0))]), Model(LETTERS, circle)
 

@@ -19,7 +19,7 @@ class _Indexed:
         return self.function(*indices)
 
 
-def certain(fact: Any) -> None:
+def require(fact: Any) -> None:
     """Raise ArithmeticError if ``fact``, a premise on which a model is built, is false."""
     if not fact:
         raise ArithmeticError("a model builds on something that isn't so")
@@ -210,7 +210,7 @@ class Model:
         """Return the time derivative of an expression, by the rates of the symbols in `flow`."""
         return sum((sympy.diff(value, x) * rate for x, rate in self.flow.items() if value.has(x)), sympy.Integer(0))
 
-    def about(self, axis: Value) -> Callable[[Value], Value]:
+    def rotation_about(self, axis: Value) -> Callable[[Value], Value]:
         """Return a function from an angle to the matrix (3, 3) of the right-handed rotation about a unit vector.
 
         Integer multiples of `phases` enter by the symbols of their cosines and sines.

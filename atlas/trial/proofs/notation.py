@@ -220,8 +220,8 @@ class Reader:
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
             return -self.value(node.operand, bound)
         operands = list(factors(node))
-        here = self.summed(operands, names(node) - set(bound))
-        terms = list(self._products(operands, here, dict(bound), sympy.Integer(1)))
+        sums = self.summed(operands, names(node) - set(bound))
+        terms = list(self._products(operands, sums, dict(bound), sympy.Integer(1)))
         return sum(terms[1:], terms[0]) if terms else sympy.Integer(0)
 
     def summed(self, operands: list[tuple[ast.expr, bool]], indices: set[str]) -> set[str]:
@@ -251,11 +251,13 @@ class Reader:
         (factor, divides), remainder = operands[0], operands[1:]
         new = sorted(names(factor) & sums)
         for choice in self._assignments(new):
-            here = {**bound, **choice}
-            value = self._factor(factor, here)
+            bindings = {**bound, **choice}
+            value = self._factor(factor, bindings)
             if new and value == 0 and not divides:
                 continue
-            yield from self._products(remainder, sums - set(new), here, so_far / value if divides else so_far * value)
+            yield from self._products(
+                remainder, sums - set(new), bindings, so_far / value if divides else so_far * value
+            )
 
     def _factor(  # noqa: PLR0911  one return for each kind of factor
         self, node: ast.expr, bound: Mapping[str, int]
@@ -296,8 +298,8 @@ class Reader:
         NoMeaningError if a dictionary with a key above 3, one that counts particles, has a spatial index.
         """
         base = self._factor(node.value, bound)
-        strange = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
-        if strange and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
+        is_other_index = isinstance(node.slice, ast.Name) and node.slice.id not in self.ranges
+        if is_other_index and isinstance(base, dict) and any(isinstance(key, int) and key > 3 for key in base):
             raise NoMeaningError(f"{ast.unparse(node)} has an index that does not count these")
         bindings = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         offset = isinstance(base, sympy.MatrixBase)

@@ -5,7 +5,7 @@ from functools import cache
 import sympy
 
 from atlas.trial.proofs import pseudo_oscillator
-from atlas.trial.proofs.model import Model, Value, certain, turn, vector
+from atlas.trial.proofs.model import Model, Value, require, turn, vector
 from atlas.trial.proofs.notation import sides
 from atlas.trial.proofs.pseudo_oscillator import cubic, integrals, state_model
 from atlas.trial.proofs.trial import Falsehood, Part, Trial, read
@@ -60,7 +60,7 @@ def condition_model() -> tuple[Model, Model]:
     The first has omega3 of `constant_omega3`, the second the lines omega2 = -B2, omega1 = s B2, I = 1 - s^2 with any
     omega3. Raises ArithmeticError if the cubic had other zeros at omega2 = -B2.
     """
-    certain(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
+    require(sympy.expand(at_start(omega3).subs(omega2, -B2) - B3 * (omega1**2 - (1 - I) * B2**2)) == 0)
     resolved = Model({**LETTERS, "Omega3": omega3}, [(omega3, constant_omega3())])
     lines = [(omega2, -B2), (omega1, s * B2), (I, 1 - s**2)]  # where omega3 has the coefficient 0
     return resolved, Model(LETTERS, lines, domains={"s": "unit"})
@@ -135,7 +135,7 @@ def _axes() -> tuple[Value, Value]:
         residue = image[0] * axis[1] - image[1] * axis[0]
         for symbol, value in _angles():
             residue = residue.subs(symbol, value)
-        certain(sympy.cancel(residue) == 0)
+        require(sympy.cancel(residue) == 0)
     return direction, normal
 
 
@@ -214,7 +214,7 @@ def leaving_points_model() -> Model:
     """
     away = sympy.Symbol("omega1", positive=True)
     rate = state_model().letters["at0"](state_model().letters["d"](state_model().letters["Omega3"]))
-    certain(sympy.expand(rate - omega1 * B2) == 0)
+    require(sympy.expand(rate - omega1 * B2) == 0)
     return Model(
         {**LETTERS, "omega1": away, "rate": rate.subs(omega1, away)}, [(omega3, constant_omega3().subs(omega1, away))]
     )

@@ -157,8 +157,8 @@ def verify(
 
     Raises AtlasError for a word that means no entry.
     """
-    meant = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
-    names_in_order = [name for name in EQUATIONS if name in meant]
+    chosen = {entry.name for name in names for entry in find(name)} if names else set(EQUATIONS)
+    names_in_order = [name for name in EQUATIONS if name in chosen]
     keys = {name: digest("verdict", FIELDS, name, recorded.source(name)) for name in names_in_order} if store else {}
     vocabulary = {name: entry for name, key in keys.items() if (entry := store.get(key)) is not None}
     verdicts = {name: Verdict(**json.loads(entry)) for name, entry in vocabulary.items()}

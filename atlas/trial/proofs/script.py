@@ -132,10 +132,10 @@ def _sides(relation: Relation, line: Line) -> str:
     if value != 0:
         return f"{relation.text}: each side{component} is {_short(value, printer)}"
     used = {
-        symbol: meant for symbol, meant in bindings.items() if any(expression.has(symbol) for expression, _ in pairs)
+        symbol: value for symbol, value in bindings.items() if any(expression.has(symbol) for expression, _ in pairs)
     }
-    meant = "; ".join(f"{printer.doprint(symbol)} = {_short(value, printer)}" for symbol, value in used.items())
-    return f"{relation.text}: the left side becomes 0" + (f" with {meant}" if meant else "")
+    assignments = "; ".join(f"{printer.doprint(symbol)} = {_short(value, printer)}" for symbol, value in used.items())
+    return f"{relation.text}: the left side becomes 0" + (f" with {assignments}" if assignments else "")
 
 
 def _short(value: Value, printer: StrPrinter) -> str:

@@ -8,9 +8,10 @@ and the next is a factor. A table gives the meaning of a letter, in TeX; a lette
 
 A table may also give the meaning of a longer phrase: an expression, a whole relation, other TeX, or nothing, where the
 model says it.
-Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over; `said` names the
-phrases of the table. On both sides of an arrow stand statements of the line; `arrows` lists them with
-their places, and a trial must name the same ones: the premise that its model has, or the line for the other direction.
+Whatever is neither read nor said raises UnreadableError, so that no sign of a formula is passed over;
+`unread_phrases` names the phrases of the table. On both sides of an arrow stand statements of the line; `arrows` lists
+them with their places, and a trial must name the same ones: the premise that its model has, or the line for the other
+direction.
 """
 
 import ast
@@ -60,7 +61,7 @@ class UnreadableError(ValueError):
 
 
 @dataclass(frozen=True)
-class _Said:
+class _Meaning:
     """A phrase of the TeX already replaced by `plain`, its text in plain letters from the table of signs."""
 
     plain: str
@@ -80,7 +81,7 @@ class _Letter:
     below: tuple[str, ...]
 
 
-_Token = str | _Said
+_Token = str | _Meaning
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ def thin(tex: str, signs: Mapping[str, str]) -> frozenset[str]:
     return _read(tex, tuple(signs.items()))[1]
 
 
-def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
+def unread_phrases(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
     """Return the phrases of ``signs`` that occur in the TeX and replace a whole relation, each with its line.
 
     The line is empty where nothing is read in the place of a phrase, because the model says it.
@@ -134,7 +135,7 @@ def said(tex: str, signs: Mapping[str, str]) -> dict[str, str]:
 
 def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
     """Return pairs (number of statements before an arrow, its TeX), for arrows outside the phrases of ``signs``."""
-    tokens = _said(_tokens(tex), _table(tuple(signs.items())))
+    tokens = _with_meanings(_tokens(tex), _table(tuple(signs.items())))
     marks = [(place, mark) for place, mark in enumerate(tokens) if isinstance(mark, str) and mark in _ARROWS]
     return [(len(_statements(tokens[:place])), mark) for place, mark in marks]
 
@@ -142,7 +143,7 @@ def arrows(tex: str, signs: Mapping[str, str]) -> list[tuple[int, str]]:
 @cache
 def _read(tex: str, signs: tuple[tuple[str, str], ...]) -> tuple[str, frozenset[str]]:
     table = _table(signs)
-    readers = [_Formula(statement, table) for statement in _statements(_said(_tokens(tex), table))]
+    readers = [_Formula(statement, table) for statement in _statements(_with_meanings(_tokens(tex), table))]
     relations = [relation for reader in readers for relation in reader.relations()]
     if not relations:
         raise UnreadableError("nothing in the formula is to be read")
@@ -231,7 +232,7 @@ def _signed(statement: list[_Token]) -> list[list[_Token]]:
     ]
 
 
-def _said(tokens: list[str], table: _Table) -> list[_Token]:
+def _with_meanings(tokens: list[str], table: _Table) -> list[_Token]:
     """Return the tokens with each phrase of the table replaced by the tokens of its meaning, the longest phrase first.
 
     See `_phrase`.
@@ -254,15 +255,15 @@ def _phrase(plain: str) -> list[_Token]:
     """Return the list of tokens for the meaning ``plain`` of a phrase.
 
     It is a comma for an empty meaning, the tokens of a meaning in TeX, a left side and "=" for one that ends in "=",
-    a statement of its own between commas for a relation, and one `_Said` for an expression.
+    a statement of its own between commas for a relation, and one `_Meaning` for an expression.
     """
     if not plain:
         return [","]
     if plain.startswith("\\"):
         return [*_tokens(plain)]
     if plain.endswith("="):
-        return [_Said(plain.removesuffix("=")), "="]
-    return [",", _Said(plain), ","] if _RELATES.search(plain) else [_Said(plain)]
+        return [_Meaning(plain.removesuffix("=")), "="]
+    return [",", _Meaning(plain), ","] if _RELATES.search(plain) else [_Meaning(plain)]
 
 
 class _Formula:
@@ -288,7 +289,7 @@ class _Formula:
         Raises UnreadableError if tokens are left over, nothing is compared, or an index of the left side is summed on
         another.
         """
-        if len(self.tokens) == 1 and isinstance(self.tokens[0], _Said):
+        if len(self.tokens) == 1 and isinstance(self.tokens[0], _Meaning):
             return [write(parse(self.tokens[0].plain))]
         sides, operators, lines = [self.sum()], list[ast.cmpop](), list[str]()
         if self.table.left_side:
@@ -320,11 +321,11 @@ class _Formula:
 
         Raises UnreadableError at the end of the tokens, or if ``mark`` is given and the token is another.
         """
-        here = self.peek()
-        if here == "" or (mark and here != mark):
-            raise UnreadableError(f"{mark or 'something'} is missing where the formula has {here or 'its end'}")
+        head = self.peek()
+        if head == "" or (mark and head != mark):
+            raise UnreadableError(f"{mark or 'something'} is missing where the formula has {head or 'its end'}")
         self.position += 1
-        return here
+        return head
 
     def sum(self) -> ast.expr:
         r"""Read a sum, and return its syntax tree; \pm x becomes + sign*x, \mp x becomes - sign*x."""
@@ -357,9 +358,9 @@ class _Formula:
             elif self.peek() == r"\prod":
                 (index,) = self.summed()
                 result = _product(result, _expanded(self.power(), index, "*"))
-            elif isinstance(here := self.peek(), _Said) and here.plain.startswith(_TOTAL):
+            elif isinstance(head := self.peek(), _Meaning) and head.plain.startswith(_TOTAL):
                 self.take()
-                result = _product(result, _expanded(self.product(), here.plain.removeprefix(_TOTAL), "+"))
+                result = _product(result, _expanded(self.product(), head.plain.removeprefix(_TOTAL), "+"))
             elif self.peek() in {"/", r"\times"} and result is not None:
                 divides = self.take() == "/"
                 result = ast.BinOp(result, ast.Div() if divides else ast.Mult(), self.power())
@@ -381,7 +382,7 @@ class _Formula:
         if before is None or self.peek() != "(":
             return
         behind = self.tokens[self.position + 1 : self.position + 3]
-        if isinstance(behind[0], _Said):
+        if isinstance(behind[0], _Meaning):
             return
         if behind[-1:] == [")"] or (behind[:1] == ["-"] and self.peek(3) == ")"):
             raise UnreadableError(f"({''.join(str(mark) for mark in behind).rstrip(')')}) is not read as an argument")
@@ -391,10 +392,10 @@ class _Formula:
 
         Nothing is read.
         """
-        here = self.peek()
-        if here == "" or here in _SIGNS or here in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or here in _CLOSING:
+        head = self.peek()
+        if head == "" or head in _SIGNS or head in {"+", "-", r"\pm", r"\mp", ",", ";", r"\\"} or head in _CLOSING:
             return True
-        return of_letters and not (self.is_letter() or str(here).isdigit() or here == "/")
+        return of_letters and not (self.is_letter() or str(head).isdigit() or head == "/")
 
     def summed(self) -> list[str]:
         """Step past a sign of sum or product and its lower index; return the index names, [] without an index.
@@ -460,11 +461,11 @@ class _Formula:
 
     def atom(self) -> ast.expr:
         """Read a replaced phrase, an integer, a letter, a bracket, a norm, a fraction, a matrix or a function."""
-        here = self.peek()
-        if isinstance(here, _Said):
+        head = self.peek()
+        if isinstance(head, _Meaning):
             self.take()
-            return _expression(here.plain)
-        if here.isdigit():
+            return _expression(head.plain)
+        if head.isdigit():
             digits = ""
             while str(self.peek()).isdigit():
                 digits += str(self.take())
@@ -473,9 +474,9 @@ class _Formula:
             return self.named()
         readers = {"{": self.group, r"\lvert": self.length, r"\frac": self.fraction, r"\begin{pmatrix}": self.matrix}
         readers |= dict.fromkeys(_PAIRS, self.bracket) | dict.fromkeys(_FUNCTIONS, self.function)
-        if here not in readers:
-            raise UnreadableError(f"{here or 'its end'} in the formula is not read")
-        return readers[here]()
+        if head not in readers:
+            raise UnreadableError(f"{head or 'its end'} in the formula is not read")
+        return readers[head]()
 
     def function(self) -> ast.expr:
         """Read a function and its argument: a bracket, a group, or letters without brackets.
@@ -570,14 +571,14 @@ class _Formula:
 
     def is_letter(self) -> bool:
         """Whether a letter stands next, with or without accents; nothing is read."""
-        here = self.peek()
-        if not isinstance(here, str) or here in _FUNCTIONS:
+        head = self.peek()
+        if not isinstance(head, str) or head in _FUNCTIONS:
             return False
         return (
-            here in _ACCENTS
-            or here in _FONTS
-            or (len(here) == 1 and here.isalpha())
-            or (len(here) > 2 and _GREEK.fullmatch(here[1:]) is not None)
+            head in _ACCENTS
+            or head in _FONTS
+            or (len(head) == 1 and head.isalpha())
+            or (len(head) > 2 and _GREEK.fullmatch(head[1:]) is not None)
         )
 
     def letter(self) -> _Letter:
@@ -642,21 +643,21 @@ class _Formula:
         self.bold |= letter.base.startswith(r"\mathbf")
         family = self.table.letters.get(_Letter(letter.accents, letter.base, letter.primes, ()), "")
         if letter.below and family.endswith("[]"):
-            return self.meant(letter)
+            return self.syntax_of(letter)
         rates = [_ACCENTS[accent] for accent in letter.accents if accent in {r"\dot", r"\ddot"}]
         undotted = replace(letter, accents=tuple(a for a in letter.accents if a not in {r"\dot", r"\ddot"}))
         basis = self.table.letters.get(letter)
         if basis is not None and basis.endswith("()"):
             self.take("(")
             return _call(basis.removesuffix("()"), *self.entries("("))
-        value = _expression(basis.removesuffix("[]")) if basis is not None else self.meant(undotted)
+        value = _expression(basis.removesuffix("[]")) if basis is not None else self.syntax_of(undotted)
         if isinstance(value, ast.Name):
             (self.vectors if letter.base.startswith("\\mathbf") else self.thin).add(value.id)
         for rate in reversed(rates) if basis is None else ():
             value = _call(rate, value)
         return value
 
-    def meant(self, letter: _Letter) -> ast.expr:
+    def syntax_of(self, letter: _Letter) -> ast.expr:
         """Return the syntax tree of a letter without dots: the table's meaning, an array's entry R[i, j], or a name.
 
         A name joins accents, letter, "p" for each prime, and digits of the index: hB2, B2p. Raises UnreadableError if

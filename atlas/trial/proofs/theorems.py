@@ -193,7 +193,10 @@ def turning_model(case: str) -> Model:
     letters["Bp"] = sympy.Matrix([0, e.B2, e.B3])
     phases = {precession * e.t: (e.ck, e.sk), spin_rate * e.t: (e.cf, e.sf)}
     model = Model(letters, [*e.ANGLES, *e.FIELD, *bindings], flow, e.START, phases, e.DOMAINS)
-    model.letters |= {"about_z": model.about(ball.E3), "about_B" if case == "ball" else "about_y": model.about(axis)}
+    model.letters |= {
+        "about_z": model.rotation_about(ball.E3),
+        "about_B" if case == "ball" else "about_y": model.rotation_about(axis),
+    }
     return model
 
 
@@ -202,7 +205,7 @@ def rest_model() -> Model:
     b = ball
     letters = {"alpha": b.alpha, "t": b.t, "I0": b.I0, "m": sympy.Matrix([0, 0, -b.alpha * b.I0])}
     model = Model(letters, b.ANGLES[:2], b.LARMOR, b.START, {b.alpha * b.t: (b.ca, b.sa)})
-    model.letters["about_z"] = model.about(b.E3)
+    model.letters["about_z"] = model.rotation_about(b.E3)
     return model
 
 

@@ -17,7 +17,7 @@ Cases = Model | Sequence[Model]
 
 
 @cache
-def _made(model: Callable[[], Cases]) -> Sequence[Model]:
+def _models_of(model: Callable[[], Cases]) -> Sequence[Model]:
     """Call ``model`` and return its models as a sequence, of one for a single `Model`; cached by function."""
     models = model()
     return [models] if isinstance(models, Model) else models
@@ -34,7 +34,7 @@ def _assumed(
 
     ``signs`` are pairs (TeX, plain letter) of the table of letters, ``excluded`` clauses that are not read.
     """
-    return compare(assumptions, dict(signs), _made(model), excluded)
+    return compare(assumptions, dict(signs), _models_of(model), excluded)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,8 +52,8 @@ class Part:
 
     @property
     def cases(self) -> Sequence[Model]:
-        """The sequence of models in which the line is tried, one or more; see `_made`."""
-        return _made(self.model)
+        """The sequence of models in which the line is tried, one or more; see `_models_of`."""
+        return _models_of(self.model)
 
     def outcome(self, **options: bool) -> Outcome:
         """Return the `Outcome` of the line in its models.
@@ -164,9 +164,9 @@ class Trial:
     def said(self) -> dict[str, str]:
         """Phrases of the TeX, printed and corrected, that are not read, each with the line tried instead.
 
-        See `tex.said`: the line is empty where nothing is tried.
+        See `tex.unread_phrases`: the line is empty where nothing is tried.
         """
-        return tex.said(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
+        return tex.unread_phrases(self.formula, self.signs) | (self.true_form.said if self.true_form else {})
 
     @property
     def assumed(self) -> Read:
@@ -286,7 +286,7 @@ class Trial:
             relations = understood(
                 first_statement.line, first_statement.cases[number], first_statement.defines, first_statement.solves
             )[0]
-            sides = (sympy.sympify(side) for each in relations for side in (*each.lhs, *each.rhs))
+            sides = (sympy.sympify(side) for relation in relations for side in (*relation.lhs, *relation.rhs))
             if any(side.subs(symbol, value).has(sympy.nan, sympy.zoo) for side in sides):
                 return f"assumed, and without a value there: {symbol} = {value}"
         return ""
