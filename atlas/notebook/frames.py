@@ -52,7 +52,7 @@ def _quantities(subject: Shown, swept: Swept, names: Sequence[str] | None) -> It
             raise unknown("quantity", name, quantities, f"of a {type(subject).__name__}")
         value = np.nan
         with suppress(DomainError):  # where the register says that there may be none
-            value = quantities[name].of(subject, {})
+            value = quantities[name].value(subject, {})
         yield name, np.broadcast_to(np.nan if value is None else value, shape).ravel()
 
 

@@ -27,13 +27,13 @@ MISSING = "missing"
 class Column:
     """A quantity of a table: how its values are computed, and how they are printed.
 
-    `of` maps a motion (or array of motions) and the row's parameters by name to the value; it takes `exact`, which
+    `value` maps a motion (or array of motions) and the row's parameters by name to the value; it takes `exact`, which
     says whether the motion is one in balls, not in doubles. `unit` is text, "" for a pure number. `certified` says
     whether there are certified digits. `missing` is the reason why the quantity may have no value in a row, whose
     cell is then NaN or an empty text; "" for a quantity that always has one.
     """
 
-    of: Callable[..., Any]
+    value: Callable[..., Any]
     unit: str = ""
     certified: bool = False
     missing: str = ""
@@ -103,7 +103,7 @@ class Swept:
             rows = {name: x[start : start + at_once] for name, x in parameters.items()}
             motions, count = self.make(rows | exact), min(at_once, size - start)
             for name, column in pieces.items():
-                values = np.broadcast_to(self.quantities[name].of(motions, rows), count)
+                values = np.broadcast_to(self.quantities[name].value(motions, rows), count)
                 column.append(values.astype(NAME if values.dtype.kind == "U" else np.float64))
         return self._explained({name: np.concatenate(column) for name, column in pieces.items()})
 
@@ -137,7 +137,7 @@ class Swept:
         from flint import arb
 
         try:
-            value = column.of(motion, row, exact=True)
+            value = column.value(motion, row, exact=True)
         except DomainError:
             if not column.missing:
                 raise

@@ -38,7 +38,7 @@ class Plan:
     `family` is a name in FAMILIES; `parameters` are arrays (n,) by name. The rows are all their combinations, the
     last name varying fastest; if `listed`, the rows are the elements of the arrays, and an array of one value holds
     for all rows. `quantities` are names of columns. With `digits` they are text with this number of certified
-    digits. `time` is the unit of time in headings. `first` is the index of the first row in the whole table.
+    digits. `time` is the unit of time in headings. `first_row` is the index of the first row in the whole table.
     `exact` has, as pairs (numerator, denominator), parameters of one value that no float holds: quantities are
     computed from these. `axes` describes the principal axes in those of the user, where these differ: columns that
     depend on the axes then end in "_principal". `slopes` are the changes of uncertain parameters over one standard
@@ -51,7 +51,7 @@ class Plan:
     listed: bool = False
     digits: int | None = None
     time: str = TIME
-    first: int = 0
+    first_row: int = 0
     exact: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     axes: str = ""
     slopes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
@@ -178,7 +178,7 @@ class Plan:
         arrays = {
             name: self.parameters[name] if self.parameters[name].size == 1 else x for name, x in parameters.items()
         }
-        return replace(self, parameters=arrays, listed=True, first=self.first + start)
+        return replace(self, parameters=arrays, listed=True, first_row=self.first_row + start)
 
     def rows(self, start: int = 0, stop: int | None = None) -> Columns:
         """Return the columns by name, arrays (stop - start,), of rows start to stop - 1, by default of all rows.
@@ -192,7 +192,7 @@ class Plan:
             row = self._failing(start, stop)
             values = ", ".join(f"{name} = {value.item()}" for name, value in self._parameters(np.array([row])).items())
             reason = self._refusal(row, row + 1) or error
-            raise type(error)(f"In row {self.first + row + 1} of the table, {values}: {reason}") from error
+            raise type(error)(f"In row {self.first_row + row + 1} of the table, {values}: {reason}") from error
 
     def _failing(self, low: int, high: int) -> int:
         """Return the index of the first failing row in the half-open range low to high, in which some row fails."""
@@ -239,13 +239,13 @@ class Plan:
             [x.removesuffix("_principal") for x in self.deviating],
         )
 
-        def moved(steps: Sequence[float]) -> Columns:
+        def shifted(steps: Sequence[float]) -> Columns:
             changes = {name: np.dot(slopes, steps) for name, slopes in self.slopes.items()}
             columns = self._quantities({name: x + changes.get(name, 0.0) for name, x in parameters.items()}, {})
             return {name: columns[name] for name in own_names}
 
         count = len(next(iter(self.slopes.values())))
-        sigma = spread(moved([0.0] * count), moved, count).sigma
+        sigma = spread(shifted([0.0] * count), shifted, count).sigma
         return [x if isfinite(x := sigma.get((name, 0), nan)) else nan for name in own_names]
 
     def _parameters(self, rows: NDArray[np.int64]) -> Columns:

@@ -164,7 +164,7 @@ def write_plan(
     writing, where an edited file of that name is kept.
     """
     table = Table(out, key(plan, rows))
-    with table.held():
+    with table.hold():
         try:
             names = _compute(plan, table, rows, executor, width(executor, jobs), progress)
             new_names: Mapping[str, str] = {}
@@ -260,8 +260,8 @@ def make(plan: Plan, start: int, stop: int, table: Table) -> Made:
     data = PARTS[table.ending](plan.rows(start, stop), head_of(plan.conventions, plan.headings))
     # without the time of other processes, or of other threads of this one
     seconds = min(perf_counter() - begin[0], process_time() - begin[1])
-    name = table.name((plan.first + start, plan.first + stop), data)
-    if not table.seen():
+    name = table.name((plan.first_row + start, plan.first_row + stop), data)
+    if not table.is_seen():
         return name, data, seconds
     table.parts.write(name, data)
     return name, None, seconds

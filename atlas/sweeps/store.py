@@ -208,7 +208,7 @@ class Table:
             for name in sorted(self.parts.names() & {*names}):
                 self.parts.move(name, self.table_folder)
 
-    def seen(self) -> bool:
+    def is_seen(self) -> bool:
         """Return whether this process sees the folder that the sweep sees: the lock file has the same text.
 
         For files at memory:// that is so in the process of the sweep alone, at other addresses always.
@@ -221,7 +221,7 @@ class Table:
             return False
 
     @contextmanager
-    def held(self) -> Iterator[None]:
+    def hold(self) -> Iterator[None]:
         """Hold the table's lock, a lock of the system that ends with this process; `mark` is the text of its file.
 
         The file is removed at the end; one left behind by a killed sweep is ignored. Raises AtlasError that says which

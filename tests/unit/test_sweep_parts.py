@@ -44,7 +44,7 @@ def starts_of(monkeypatch: pytest.MonkeyPatch, stop: int | None = None) -> list[
     def counted(plan: Plan, start: int = 0, end: int | None = None) -> Any:
         if len(starts) == stop:
             raise Stopped
-        starts.append(plan.first + start)
+        starts.append(plan.first_row + start)
         return ROWS(plan, start, end)
 
     monkeypatch.setattr(Plan, "rows", counted)
@@ -141,7 +141,7 @@ def test_rows_that_are_in_two_parts_are_taken_once(
     parts_folder = stopped(tmp_path / "t.csv", monkeypatch)
     table = Table(tmp_path / "t.csv", next(parts_folder.iterdir()).name.split("-")[3])
     monkeypatch.setattr(Plan, "rows", ROWS)
-    with table.held():
+    with table.hold():
         for start, stop in ((0, 30), (10, 45), (130, 154)):
             run.make(Plan.of("elementary", GRID, NAMES), start, stop, table)
     sweep(tmp_path / "t.csv")
@@ -299,7 +299,7 @@ def test_a_second_sweep_names_the_process_of_the_first(tmp_path: Path) -> None:
     """While one sweep writes a table another one ends with status 2, names its process, and leaves all as it is."""
     out = tmp_path / "t.csv"
     words = f"sweep ball --set inertia=1 --set larmor=1 --set m2=1 --set m3=1 --quantity gamma --out {out}"
-    with Table(out, "").held():
+    with Table(out, "").hold():
         run_two = subprocess.run(
             [sys.executable, "-m", "atlas", *words.split()], capture_output=True, text=True, check=False
         )
@@ -317,7 +317,7 @@ def test_the_lock_of_a_killed_sweep_is_no_hindrance_and_no_other_file_is_taken_f
     """Leftovers of a killed process count for nothing; a file of the user's own is not written over."""
     lock = tmp_path / ".t.csv.lock"
     kill = "import os, signal; from atlas.sweeps.store import Table\n"
-    kill += f"with Table({str(tmp_path / 't.csv')!r}, '').held(): os.kill(os.getpid(), signal.SIGKILL)"
+    kill += f"with Table({str(tmp_path / 't.csv')!r}, '').hold(): os.kill(os.getpid(), signal.SIGKILL)"
     assert subprocess.run([sys.executable, "-c", kill], check=False).returncode == -signal.SIGKILL
     assert lock.exists()
     sweep(tmp_path / "t.csv")
