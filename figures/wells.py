@@ -9,7 +9,7 @@ import numpy as np
 
 from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
-from atlas.maps.wells import border, rest
+from atlas.maps.wells import border, steady_line
 from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
 from atlas.pictures.captions import listed, plain, tex
 
@@ -67,7 +67,7 @@ def panel(letter: str, is_first: bool, is_last: bool, M3: float, cosines: tuple[
     """
     edge = envelope(M3, reach)
     visible = edge[np.abs(edge).max(axis=1) <= reach]
-    lines = {nu: within(float(rest(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
+    lines = {nu: within(float(steady_line(M3, 1.0, np.array([nu]))[0]), nu, reach) for nu in cosines}
     if not (len(visible) or any(map(len, lines.values()))):
         raise DomainError(
             f"figure wells: at M3 = {M3:g} p no line and no border lies within reach = {reach:g}: give a larger reach "

@@ -64,7 +64,7 @@ class Shown(CarriesUncertainty):
     def __repr__(self) -> str:
         """Return the call that makes the object and, behind a #, its kind, or the shape of an array."""
         kind = _kind(self)
-        return called(self.made_by or type(self).__name__, self.arguments) + (f"  # {kind}" if kind else "")
+        return call_text(self.made_by or type(self).__name__, self.arguments) + (f"  # {kind}" if kind else "")
 
     def _repr_html_(self) -> str | None:
         """Return as HTML a table of quantities in proven digits and a small picture, for a notebook; or None."""
@@ -163,7 +163,7 @@ def made(make: Callable[..., Shown], arguments: Mapping[str, Any]) -> Shown:
     return make(**arguments)
 
 
-def called(name: str, arguments: Mapping[str, Any]) -> str:
+def call_text(name: str, arguments: Mapping[str, Any]) -> str:
     """Return a call as text, "NAME(key=value, ...)"; arguments that are None are left out."""
     keywords = ", ".join(f"{key}={_typed_text(value)}" for key, value in arguments.items() if value is not None)
     return f"{name}({keywords})"
@@ -171,7 +171,7 @@ def called(name: str, arguments: Mapping[str, Any]) -> str:
 
 def _typed_text(value: Any) -> str:
     if isinstance(value, Shown):
-        return called(value.made_by or type(value).__name__, value.arguments)
+        return call_text(value.made_by or type(value).__name__, value.arguments)
     if isinstance(value, np.ndarray | np.generic):
         return repr(value.tolist()) if value.size <= MAX_SHOWN_NUMBERS else f"<array {value.shape}>"
     if isinstance(value, tuple):

@@ -15,7 +15,7 @@ from atlas.arithmetic.numbers import cross, dot, nearest, root, unit, workprec
 from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.arithmetic.words import exact
 from atlas.bodies import units as unit_systems
-from atlas.bodies.display import called
+from atlas.bodies.display import call_text
 from atlas.bodies.speeds import check_drift
 from atlas.errors import AtlasError, DomainError
 
@@ -101,7 +101,7 @@ class Field(CarriesUncertainty):
         return (*self.B.tolist(), *self.E.tolist(), self._ratio, self.c)
 
     def __repr__(self) -> str:
-        text = called("Field", {"B": self.B, "E": self.E, "mu": self._ratio, "c": self.c})
+        text = call_text("Field", {"B": self.B, "E": self.E, "mu": self._ratio, "c": self.c})
         return f"{text}  # B' = {self.prime.tolist()}"
 
     @classmethod
@@ -300,7 +300,7 @@ class LaboratoryFrame(CarriesUncertainty):
         object.__setattr__(self, "matrix", frozen(matrix))
 
     def __repr__(self) -> str:
-        text = called("LaboratoryFrame", {"axis": self.axis, "B": self.B})
+        text = call_text("LaboratoryFrame", {"axis": self.axis, "B": self.B})
         return f"{text}  # {self.alignment}, (B2, B3) = {self.field}"
 
     def to_laboratory(self, v: RealArrayLike) -> FloatArray:

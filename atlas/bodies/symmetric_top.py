@@ -56,7 +56,7 @@ def moments_of_one(body: Any) -> tuple[Any, Any]:
     return I2, I3
 
 
-def along(field: tuple[float, float], weight: Any) -> fmpq:
+def signed_weight(field: tuple[float, float], weight: Any) -> fmpq:
     """Return |weight| with the sign of (weight, field), for a weight (w2, w3) parallel to the field (B2, B3).
 
     The result is a rational to 256 binary digits, in the unit of the weight, for a quantity of pint or astropy in SI.

@@ -304,7 +304,7 @@ def around(
     return np.stack([p + x, g + slope * x + y], axis=-1)
 
 
-def carried(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
+def carried_basis(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
     """Carry two periods of the tori of a body round a ``loop`` (N, 2) of values (F, H), closed by its first point.
 
     The tori are those next to the spin about an ``axis``, 0 to 2. Their periods, pairs of times (T_H, T_F), are

@@ -161,7 +161,7 @@ def nutation_squared(A: Any, a: Any, w: Any, r: Any) -> Any:
     return plain(w * w - A * (3 * r * r - 1) - 2 * a * r + (force / w) ** 2)
 
 
-def rest(M3: float, p: float, nu: FloatArray) -> FloatArray:
+def steady_line(M3: float, p: float, nu: FloatArray) -> FloatArray:
     """Return a + A nu (N,), in 1/time^2, for which theta can be constant at nu (N,), theorem-top-precession.
 
     nu is cos theta. In the plane of (a, A) this is a line. ``M3`` and ``p`` are the momenta along the axis and along n,
@@ -175,8 +175,8 @@ def border(M3: float, p: float, nu: FloatArray) -> FloatArray:
     """Return (a, A), shape (N, 2), in 1/time^2, of the potentials in which the rest at nu (N,) is a triple root of q.
 
     ``M3`` and ``p`` are the momenta along the axis and along n, in 1/time. The curve is the envelope of the lines
-    `rest`: there a well and the barrier beside it appear or vanish. A < 0 on it.
+    `steady_line`: there a well and the barrier beside it appear or vanish. A < 0 on it.
     """
-    w, force = (p - M3 * nu) / ((1 - nu) * (1 + nu)), rest(M3, p, nu)
+    w, force = (p - M3 * nu) / ((1 - nu) * (1 + nu)), steady_line(M3, p, nu)
     A = -(w * w - 2 * nu * force + (M3 - nu * w) ** 2) / ((1 - nu) * (1 + nu))
     return np.stack([force - A * nu, A], axis=-1)

@@ -38,7 +38,9 @@ def plot(
         raise AtlasError(f"The figure has the panels 1 to {len(scene.panels)}, and no panel {panel!r}.")
     if ax is None:
         return to_figure(
-            scene if panel is None else alone(scene, panel), style, target=None if target is None else find(target)
+            scene if panel is None else single_panel(scene, panel),
+            style,
+            target=None if target is None else find(target),
         )
     if target is not None:
         raise AtlasError("target is for a whole figure; axes of your own have the size that you gave them.")
@@ -94,7 +96,7 @@ def _flight(subject: Any, parameters: dict[str, Any]) -> Scene:
     return flight.scene_of(subject, **parameters)
 
 
-def alone(scene: Scene, panel: int) -> Scene:
+def single_panel(scene: Scene, panel: int) -> Scene:
     """Return a copy of a scene with only its panel number `panel`, from 1, at that panel's size."""
     rows = -(-len(scene.panels) // scene.columns)
     size = scene.size[0] / min(scene.columns, len(scene.panels)), scene.size[1] / rows

@@ -15,7 +15,7 @@ from atlas.arithmetic.numbers import workprec
 from atlas.bodies.clebsch_integrals import clebsch
 from atlas.checking.simulate import flow
 from atlas.maps.bifurcation import Bifurcation
-from atlas.maps.monodromy import carried
+from atlas.maps.monodromy import carried_basis
 from atlas.motions.nutation.certified_elliptic import EllipticMotion as ExactElliptic
 from atlas.motions.torus.certified_torus import Torus
 from atlas.pictures import Curve, Points, Region, recipes
@@ -159,8 +159,8 @@ def test_the_isolated_focus_has_monodromy_and_a_regular_value_has_none() -> None
     assert spin.kind == "focus-focus"
     centres = np.array([[spin.F, spin.H], [spin.F + 0.3, spin.H + 0.15]])
     (matrix, step), (matrix_trivial, _) = (
-        carried(diagram, 2, ring + centres[0]),
-        carried(diagram, 2, ring[::2] + centres[1]),
+        carried_basis(diagram, 2, ring + centres[0]),
+        carried_basis(diagram, 2, ring[::2] + centres[1]),
     )
     change = np.array(matrix) - np.eye(2, dtype=int)
     assert step < 0.2
@@ -182,7 +182,7 @@ def test_stability_changes_only_where_a_stretch_ends() -> None:
 def test_values_of_no_motion_are_refused() -> None:
     """A state without these values is an error, not the last step of a search."""
     with pytest.raises(DomainError, match="H = -3"):
-        carried(Bifurcation(BODY, 1.0, 0.8), 2, np.array([[0.0, -3.0]]))
+        carried_basis(Bifurcation(BODY, 1.0, 0.8), 2, np.array([[0.0, -3.0]]))
 
 
 def test_the_edge_of_the_region_has_elliptic_motions() -> None:

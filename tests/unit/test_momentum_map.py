@@ -8,7 +8,7 @@ import pytest
 import atlas
 from atlas.maps.bifurcation import momentum_map, potential
 from atlas.maps.trace_map import trace_map
-from atlas.maps.wells import Branch, Wells, border, nutation_squared, rest
+from atlas.maps.wells import Branch, Wells, border, nutation_squared, steady_line
 
 EPS = float(np.finfo(float).eps)
 BODIES = [(0.5, (1.0, 0.1), -0.5), (2.0, (1.0, -2.0), -3.0), (1.0, (1.0, 2.0), 0.7), (1.5, (-1.0, 2.0), 0.4)]
@@ -83,7 +83,7 @@ def test_two_wells_lie_on_one_side_of_the_border(M3: float, p: float) -> None:
         size = abs(A) + abs(a) + np.abs(V).max()
         assert abs(V[3] - V[1]) <= 1e-4 * size
         assert abs(V[3] - 2 * V[2] + V[1]) <= 1e-4 * size * d
-        assert rest(M3, p, np.array([r]))[0] == pytest.approx(a + A * r, rel=1e-12, abs=1e-12)
+        assert steady_line(M3, p, np.array([r]))[0] == pytest.approx(a + A * r, rel=1e-12, abs=1e-12)
         counts = sorted(
             int(np.sum(np.diff(np.sign(np.diff(Wells(M3, A, a + s * 1e-3 * size).potential(p, dense)))) != 0))
             for s in (-1, 1)

@@ -15,7 +15,7 @@ from atlas.arithmetic.numbers import Number, as_rational, length, nearest, ratio
 from atlas.bodies.body import SymmetricBody
 from atlas.bodies.charge import ChargeMoments
 from atlas.bodies.laboratory import anisotropy
-from atlas.bodies.symmetric_top import along, inputs_of_top, moments_of_one
+from atlas.bodies.symmetric_top import inputs_of_top, moments_of_one, signed_weight
 from atlas.bodies.units import system
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.nutation.certified_top import TopMotion as Balls
@@ -268,7 +268,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         a2, a3 = (rational(number(x, "A polarizability")) for x in induced)
         if susceptibility:
             a3 = a3 + rational(anisotropy(susceptibility, volume, demagnetization, c != 1))
-        linear = along((B2, B3), weight) - rational(number(moment, "The moment", "J/T")) * size
+        linear = signed_weight((B2, B3), weight) - rational(number(moment, "The moment", "J/T")) * size
         quadratic = (a2 - a3) * size * size
         coupling = [exact_number(rational(J) * half) for J in charges.exact]
         return cls((I2, I3), coupling, (B2, B3), omega, linear=exact_number(linear), quadratic=exact_number(quadratic))
