@@ -6,7 +6,7 @@ point charge, (4), (99), and about the centre it turns by the elementary motion 
 
 import numpy as np
 
-from atlas.arithmetic.inputs import FloatArray, number, positive, vector, whole
+from atlas.arithmetic.inputs import FloatArray, integer, number, positive, vector
 from atlas.errors import DomainError
 from atlas.motions.elementary.kernel import ElementaryMotion
 from atlas.motions.particle.kernel import ParticleMotion
@@ -51,7 +51,7 @@ def scene(
     the laboratory and in Gaussian units of the same lengths and times. ``azimuth`` and ``elevation`` of the view
     are in degrees. Raises DomainError without charge or field, for a loop, and for bodies that cover one another.
     """
-    mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), whole(count, "count")
+    mu, c, size, count = number(mu, "mu"), positive(c, "c"), positive(size, "size"), integer(count, "count")
     I = quotient(ratio)
     if not (mu and any(field) and I < 2 and 2 <= count <= 60):
         raise DomainError(

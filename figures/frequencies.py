@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from atlas.arithmetic.inputs import FloatArray, whole
+from atlas.arithmetic.inputs import FloatArray, integer
 from atlas.bodies.integrals import shape_factors
 from atlas.errors import DomainError
 from atlas.motions.elementary.kernel import ElementaryMotion
@@ -43,7 +43,7 @@ def scene(
     ``field`` is (B2, B3) of B', in 1/time; ``unit`` is the word for the unit of time. Raises DomainError for B2 = 0 and
     for an order above 8.
     """
-    order = whole(order, "order", 1)
+    order = integer(order, "order", 1)
     if order > MAX_ORDER:
         raise DomainError(f"figure frequencies marks p/q up to order = {MAX_ORDER}, not {order}.")
     B2, B3 = components(field)

@@ -8,7 +8,7 @@ kinds; the lines are levels of the semi-axes C1, C2, C3 of (55) and (57) in unit
 import numpy as np
 from contourpy import contour_generator
 
-from atlas.arithmetic.inputs import FloatArray, whole
+from atlas.arithmetic.inputs import FloatArray, integer
 from atlas.errors import DomainError
 from atlas.pictures import Curve, Label, Layer, Plane, Region, Scene
 from atlas.pictures.captions import listed
@@ -42,7 +42,7 @@ def scene(
     have, and for too many cells.
     """
     levels = (C1, C2, C3)
-    cells = whole(cells, "The number of cells", MIN_CELLS)
+    cells = integer(cells, "The number of cells", MIN_CELLS)
     if cells > MAX_CELLS:
         raise DomainError(f"figure kinds_of_quadric takes at most {MAX_CELLS} cells, not {cells}.")
     I = 2.0 * np.arange(1, cells + 1) / cells

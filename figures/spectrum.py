@@ -7,7 +7,7 @@ and of spin.
 
 import numpy as np
 
-from atlas.arithmetic.inputs import number, whole
+from atlas.arithmetic.inputs import integer, number
 from atlas.errors import DomainError
 from atlas.motions.nutation.kernel_general import GeneralMotion
 from atlas.motions.spectrum import Spectrum
@@ -37,7 +37,7 @@ def scene(
     B', ``omega`` the angular velocity at t = 0, in 1/time; ``unit`` is the word for the unit of time. Raises
     DomainError for ``least`` outside 1e-12 to 0.1.
     """
-    least, names = number(least, "least"), whole(names, "names", 0)
+    least, names = number(least, "least"), integer(names, "names", 0)
     if not 1e-12 <= least <= 0.1:
         raise DomainError(f"figure spectrum draws lines down to least = 1e-12 to 0.1, not {least:g}.")
     motion = GeneralMotion(ratio, field, omega)

@@ -197,7 +197,7 @@ def chosen(mask: Any, x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     return DoubleDouble(hi, low, max(x.rel, y.rel) if scalar else np.where(mask, x.rel, y.rel))
 
 
-def better(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
+def more_accurate(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble:
     """Return, element by element, x or y, two forms of one number, whichever has the smaller bound `rel`."""
     return chosen(y.rel < x.rel, y, x)
 
@@ -221,30 +221,30 @@ def signed(x: DoubleDouble, sign: Any) -> DoubleDouble:
 
 @overload
 def over(
-    formula: Formula, *inputs: Any, unit: slice = ..., degree: int = 1, alone: Formula | None = None
+    formula: Formula, *inputs: Any, unit: slice = ..., degree: int = 1, scalar_path: Formula | None = None
 ) -> float | FloatArray: ...
 @overload
 def over(
-    formula: Formula, *inputs: Any, unit: slice = ..., degree: Sequence[int], alone: Formula | None = None
+    formula: Formula, *inputs: Any, unit: slice = ..., degree: Sequence[int], scalar_path: Formula | None = None
 ) -> Any: ...
 def over(
     formula: Formula,
     *inputs: Any,
     unit: slice = slice(0),
     degree: int | Sequence[int] = 1,
-    alone: Formula | None = None,
+    scalar_path: Formula | None = None,
 ) -> Any:
     """Evaluate a formula at floats, arrays or `Given`, each result rounded once to the nearest double.
 
     ``formula`` takes as many numbers as there are inputs, of flint or `DoubleDouble`, and returns one, or a tuple if
     ``degree`` is a sequence. The result is a float for scalar inputs, an array of their common shape otherwise, a list
     of these for several degrees. The inputs ``unit`` share one unit, in which each result is homogeneous of its degree.
-    ``alone``, which takes and returns floats, replaces the evaluation in 256 binary digits, which
+    ``scalar_path``, which takes and returns floats, replaces the evaluation in 256 binary digits, which
     settles the results whose rounding the double-doubles leave open.
     """
-    alone = alone or partial(numbers.alone, formula)
+    scalar_path = scalar_path or partial(numbers.evaluate_rounded, formula)
     if not any(np.ndim(x) for x in inputs):
-        return alone(*(element(x, ()) for x in inputs))
+        return scalar_path(*(element(x, ()) for x in inputs))
     shape = common_shape(*(np.shape(x) for x in inputs))
     degrees = (degree,) if isinstance(degree, int) else degree
     out = np.empty((len(degrees), int(np.prod(shape))))
@@ -260,7 +260,7 @@ def over(
             values[:] = values_of_rows
             is_settled &= is_nearest
         for i in np.flatnonzero(~is_settled).tolist():
-            out[:, rows.start + i] = alone(*row(i))
+            out[:, rows.start + i] = scalar_path(*row(i))
     values_of_rows = [values.reshape(shape) for values in out]
     return values_of_rows[0] if isinstance(degree, int) else values_of_rows
 
@@ -332,7 +332,7 @@ def _flat(x: FloatArray, shape: tuple[int, ...]) -> Any:
     return x.reshape(-1) if x.shape == shape and x.flags.c_contiguous else np.broadcast_to(x, shape).flat
 
 
-def given(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1) -> list[Any]:
+def exact_results(formula: Formula, *inputs: Any, unit: slice = slice(0), count: int = 1) -> list[Any]:
     """Return ``count`` results of a formula as exact inputs of a motion: a list of floats, arrays, or `Given`.
 
     ``formula`` takes as many numbers as there are inputs, and returns a tuple of numbers in the unit of the inputs

@@ -144,7 +144,7 @@ def broadcast(x: Any, shape: Index) -> Any:
     return Given(hi, lo, rel, x.at)
 
 
-def part(x: Any, rows: Any) -> Any:
+def elements(x: Any, rows: Any) -> Any:
     """Return elements of a flattened array or `Given` at ``rows``, a slice or indices; a `Given` of a `Given`."""
     if not isinstance(x, Given):
         return x.reshape(-1)[rows]

@@ -86,7 +86,7 @@ def positive(value: Any, name: str, unit: str = "") -> float:
     return result
 
 
-def whole(value: Any, name: str, least: int = 0) -> int:
+def integer(value: Any, name: str, least: int = 0) -> int:
     """Return ``value`` as an integer. Raises AtlasError unless it is a whole number, at least ``least``.
 
     ``name`` stands in errors. A float such as 3.0 is taken.
@@ -204,7 +204,7 @@ def frozen(value: Value) -> Value:
     return value
 
 
-class kept(cached_property[Value]):  # noqa: N801  used as cached_property is
+class frozen_property(cached_property[Value]):  # noqa: N801  used as cached_property is
     """A `cached_property` whose arrays are read-only, since other cached values are made from them."""
 
     finish = staticmethod(frozen)

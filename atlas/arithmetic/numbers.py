@@ -144,7 +144,7 @@ def cross(a: Vector, b: Vector) -> tuple[Number, Number, Number]:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-def turned(q: Vector, v: Vector) -> tuple[Number, ...]:
+def rotate(q: Vector, v: Vector) -> tuple[Number, ...]:
     """Return the components of v rotated by the quaternion q = (x, y, z, w) of any length but 0."""
     axis, w = q[:3], q[3]
     across_square, axis_square = w * w, dot(axis, axis)
@@ -173,7 +173,7 @@ def unit(vector: Vector) -> list[Number]:
     return [select(x, size, -size) for x, size in roots]
 
 
-def alone(formula: Callable[..., Any], *inputs: float) -> Any:
+def evaluate_rounded(formula: Callable[..., Any], *inputs: float) -> Any:
     """Evaluate a formula at floats, taken as exact, in 256 binary digits, each result rounded once.
 
     The result is a float, or a list of floats if the formula returns several numbers.

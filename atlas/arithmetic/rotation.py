@@ -229,9 +229,9 @@ class DoubleRotation:
 
         ``out``, if given, is filled and returned.
         """
-        return (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
+        return (self.rotate if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
-    def turned(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
+    def rotate(self, vector: Any, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return R_n(k t) v for a constant vector v (3,), shape t.shape + (3,), in the unit of v.
 
         Only one phase is evaluated. Raises AtlasError if v is too large for floats. ``out``, if given, is filled and

@@ -197,9 +197,9 @@ class DoubleRotationRows:
 
     def angular_velocity(self, t: FloatArray, out: FloatArray) -> None:
         """Write Omega(t) along the body's axes, in rad/time, at t (m,) into ``out`` (m, 3)."""
-        (self.turned if self.inverse else self.swung)(self.vector("Omega"), t, out)
+        (self.rotate if self.inverse else self.swung)(self.vector("Omega"), t, out)
 
-    def turned(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
+    def rotate(self, vector: Any, t: FloatArray, out: FloatArray) -> None:
         """Write R_n(k t) v for constant vectors v (3, m), in their unit, at t (m,) into ``out`` (m, 3).
 
         Raises AtlasError if a result is not finite.

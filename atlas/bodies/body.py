@@ -10,7 +10,7 @@ from flint import fmpq
 
 from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import DENSITY, INERTIA, LENGTH, MASS
-from atlas.arithmetic.double_double import given, over
+from atlas.arithmetic.double_double import exact_results, over
 from atlas.arithmetic.given import exact_number as given_number
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, numbers, plain
 from atlas.arithmetic.numbers import nearest
@@ -576,7 +576,7 @@ def _shaped(kind: type[Made], name: str, given_sizes: Mapping[str, Any], density
         mass = mass_or_density if density is None else mass_or_density * formulas.VOLUMES[name](*lengths)
         return formula(mass, *(x * x for x in lengths))
 
-    I2, I3 = given(exact, *(sizes[key] for key in order), unit=slice(1), count=2)
+    I2, I3 = exact_results(exact, *(sizes[key] for key in order), unit=slice(1), count=2)
     body = kind(I2, I3)
     object.__setattr__(body, "_shape", (name, {key: as_given(value) for key, value in sizes.items()}))
     return body

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from flint import fmpq
 
 from atlas.arithmetic.certified_inputs import rational, rationals
-from atlas.bodies.formula_domain import ROD, check_ratio, written
+from atlas.bodies.formula_domain import ROD, check_ratio, shortest_text
 from atlas.bodies.formula_shapes import FLAT, SHAPES, check_shape
 from atlas.errors import DomainError
 
@@ -60,6 +60,6 @@ def shape_moments(name: str, **dimensions: Any) -> tuple[fmpq, fmpq]:
     values = [rational(dimensions[key], key) for key in names]
     for key, value in zip(names, values, strict=True):
         if value < 0 or (value == 0 and key not in FLAT):
-            raise DomainError(f"The {key} must be positive, not {written(value)}.")
+            raise DomainError(f"The {key} must be positive, not {shortest_text(value)}.")
     m, *lengths = values
     return formula(m, *(x * x for x in lengths))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike, StyleLike
-from atlas.arithmetic.inputs import kept
+from atlas.arithmetic.inputs import frozen_property
 from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.errors import AtlasError, nearest
 from atlas.viewers import notebook
@@ -39,7 +39,7 @@ class Shown(CarriesUncertainty):
 
         While the object is made, before it has `arguments`, arguments and unknown names may be set.
         """
-        if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), kept):
+        if name in self.__dict__.get("arguments", ()) or isinstance(getattr(type(self), name, None), frozen_property):
             raise AttributeError(f"{name} of a {type(self).__name__} can't be changed: make another one.")
         is_known = name[0] == "_" or name in self.__dict__ or hasattr(type(self), name)
         if "arguments" in self.__dict__ and not is_known:

@@ -39,10 +39,10 @@ def refuse(condition: Any, sentence: str, *values: Any) -> None:
         return
     if getattr(condition, "shape", ()):
         values = tuple((x + 0.0 * condition)[condition].flat[0] for x in values)
-    raise DomainError(sentence.format(*map(written, values)) if values else sentence)
+    raise DomainError(sentence.format(*map(shortest_text, values)) if values else sentence)
 
 
-def written(value: Number) -> str:
+def shortest_text(value: Number) -> str:
     """Return a number, exact or a float, as the shortest text of the double nearest to it, or "beyond all floats"."""
     try:
         return repr(int(value.p) / int(value.q) if hasattr(value, "p") else float(value))
@@ -105,8 +105,10 @@ def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
     if case in CASES[:FREE_CASES]:
         general = "or omega = (0, omega2, omega3) to the general motion"
         refuse(omega3 is None, f"In the case {case!r} omega3 is free: give it, {general}.")
-    elif omega3 is not None and written(omega3) != written(curve):
-        refuse(True, f"omega3 follows from omega2 by (71) and is {written(curve)}, not {{}}: leave it out.", omega3)
+    elif omega3 is not None and shortest_text(omega3) != shortest_text(curve):
+        refuse(
+            True, f"omega3 follows from omega2 by (71) and is {shortest_text(curve)}, not {{}}: leave it out.", omega3
+        )
 
 
 def check_curve(B2: Number, omega2: Number) -> None:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from flint import arb
 
-from atlas.arithmetic.inputs import FloatArray, number, whole
+from atlas.arithmetic.inputs import FloatArray, integer, number
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.symmetric_top import inputs_of_top
@@ -144,7 +144,7 @@ def monodromy(
     size = 4 * (abs(wells.A) + abs(wells.a)) + momentum * momentum
     if size and not MIN_RATE_SQUARE < max(size, abs(middle)) < math.inf:
         raise DomainError("The rates of this top are too large or too small for floats: choose another unit of time.")
-    whole(points, "The number of points", 3)
+    integer(points, "The number of points", 3)
     end, D = unstable_spin(*parameters)
     values = around(wells, middle, points, end, D, slope=middle)
     loop = on_loop(I, (twist[0], twist[1]), momentum, values, weight, lean)
@@ -187,7 +187,7 @@ def on_loop(
     it from critical values. Raises NotCertifiedError where the balls are too wide.
     """
     wells = Wells.at(M3, I, coupling, linear, quadratic)
-    whole(len(loop), "The number of points", 3)
+    integer(len(loop), "The number of points", 3)
     rows = []
     with workprec(PRECISION):
         for p, g in loop.tolist():

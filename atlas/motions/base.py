@@ -16,7 +16,7 @@ from atlas.arithmetic.annotations import AttitudeLike, BodyLike, FieldLike, Name
 from atlas.arithmetic.dimensions import TIME, bare
 from atlas.arithmetic.given import element
 from atlas.arithmetic.grid import fill_grid
-from atlas.arithmetic.inputs import FloatArray, common_shape, finite, number, real, whole
+from atlas.arithmetic.inputs import FloatArray, common_shape, finite, integer, number, real
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.rotation import DoubleRotation, target
@@ -724,7 +724,7 @@ class Motion(Shown, Generic[Single]):
         the grid is faster than `rotation` from 10 000 times on, and twice as fast from 100 000 on.
         """
         start, step = number(start, "The start of the grid", TIME), number(step, "The step of the grid", TIME)
-        count = whole(count, "The count of the grid")
+        count = integer(count, "The count of the grid")
         out = target(out, (*self.shape, count, 3, 3))
         for i, matrices in enumerate(out.reshape(prod(self.shape), count, 3, 3)):
             self._fill_grid(self._single(i), start, step, matrices)

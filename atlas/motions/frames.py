@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from atlas.arithmetic.dimensions import TIME, bare
-from atlas.arithmetic.double_double import given
+from atlas.arithmetic.double_double import exact_results
 from atlas.arithmetic.given import Given
 from atlas.arithmetic.inputs import FloatArray, plain
 from atlas.arithmetic.lazy import cached_property
-from atlas.arithmetic.numbers import Number, turned
+from atlas.arithmetic.numbers import Number, rotate
 from atlas.arithmetic.quaternions import of_matrix, product, rows_of_matrix
 
 
@@ -116,12 +116,12 @@ def turned_by(v: list[Any], *turns: FloatArray) -> list[Any]:
             x = np.matvec(M, x)
         return [plain(x[..., i] + 0.0) for i in range(3)]
     rows = [x for M in turns for x in np.moveaxis(M if M.shape == (4,) else rows_of_matrix(M), -1, 0)]
-    return given(_turned_vectors, *rows, *v, unit=slice(len(rows), None), count=3)
+    return exact_results(_turned_vectors, *rows, *v, unit=slice(len(rows), None), count=3)
 
 
 def _turned_vectors(*numbers: Number) -> tuple[Number, ...]:
     *quaternions, x, y, z = numbers
     v: Any = (x, y, z)
     for i in range(0, len(quaternions), 4):
-        v = turned(quaternions[i : i + 4], v)
+        v = rotate(quaternions[i : i + 4], v)
     return tuple(v)

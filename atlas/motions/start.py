@@ -11,7 +11,7 @@ import numpy as np
 from flint import fmpq
 
 from atlas.arithmetic.dimensions import INERTIA, RATE
-from atlas.arithmetic.double_double import given
+from atlas.arithmetic.double_double import exact_results
 from atlas.arithmetic.given import Given, exact_numbers
 from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen, plain, real, vectors
 from atlas.arithmetic.lazy import cached_property
@@ -76,7 +76,9 @@ class Start:
         if not self.body.turn:
             return turned_by(self.B, back, axes), turned_by(self.w, *[back] * self.outside, axes)
         vectors = turned_by(self.B, back), turned_by(self.w, *[back] * self.outside)
-        field, w = (given(_components_along, *self.body.turn, *v, unit=slice(9, None), count=3) for v in vectors)
+        field, w = (
+            exact_results(_components_along, *self.body.turn, *v, unit=slice(9, None), count=3) for v in vectors
+        )
         return field, w
 
     @property

@@ -10,7 +10,7 @@ from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, Name
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import BLOCK, over
 from atlas.arithmetic.given import Given
-from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, kept, plain, vectors
+from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, components, frozen_property, plain, vectors
 from atlas.arithmetic.numbers import rounded
 from atlas.bodies.body import exact_moments, excess, kept_ratio
 from atlas.bodies.display import Shown
@@ -106,7 +106,7 @@ class Quadric(Shown):
         """
         return TopQuadric(inertia, coupling, direction, linear, quadratic)
 
-    @kept
+    @frozen_property
     def kind(self) -> NameOrArray:
         """Type of the surface, decided exactly on I2, I3, B2, B3: a string, or an array of strings.
 
@@ -121,7 +121,7 @@ class Quadric(Shown):
         )
         return names if names.ndim else str(names)
 
-    @kept
+    @frozen_property
     def beta(self) -> FloatOrArray:
         """Angle beta from e2 to I^-1 B', tan(beta) = B3/(I B2), (53), in (-pi, pi] rad.
 
@@ -137,7 +137,7 @@ class Quadric(Shown):
         values: FloatOrArray = plain(np.arctan2(np.copysign(rise, B3), run))
         return values
 
-    @kept
+    @frozen_property
     def a2(self) -> FloatOrArray:
         """Coefficient a2 = 2 sin(beta)/(1 - sin(beta)), (54).
 
@@ -150,7 +150,7 @@ class Quadric(Shown):
         check_a2(*map(np.asarray, (B2, B3)))
         return over(quadric.a2, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
-    @kept
+    @frozen_property
     def a3(self) -> FloatOrArray:
         """Coefficient a3 = 2 sin(beta)/(1 + sin(beta)), (54).
 
@@ -163,7 +163,7 @@ class Quadric(Shown):
         check_a3(*map(np.asarray, (B2, B3)))
         return over(quadric.a3, I2, I3, B2, B3, unit=slice(2, None), degree=0)
 
-    @kept
+    @frozen_property
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3 = sqrt(|1-I| B2^2 (1, |a2|, |a3|)), (55), (57), in 1/time; shape (..., 3)."""
         I2, I3, B2, B3 = self._inputs
@@ -174,13 +174,13 @@ class Quadric(Shown):
         C1, C2, C3 = (plain(np.where(is_upright, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
-    @kept
+    @frozen_property
     def centre(self) -> FloatArray:
         """Centre -B' = (0, -B2, -B3), (53); shape (..., 3), in 1/time."""
         _, I3, B2, B3 = self._inputs
         return 0.0 - np.stack(np.broadcast_arrays(0.0, B2, B3, I3)[:3], -1)
 
-    @kept
+    @frozen_property
     def axes(self) -> FloatArray:
         """Unit vectors of the coordinates omega'_1, omega'_2, omega'_3 as rows, (53); shape (..., 3, 3).
 
@@ -318,7 +318,7 @@ class TopQuadric(Quadric):
         self.direction = self._inputs[2:]
         self.arguments = arguments_of(self._top)
 
-    @kept
+    @frozen_property
     def kind(self) -> NameOrArray:
         """Kind of the surface, the sign of D: decided exactly on the inputs as given.
 
@@ -329,7 +329,7 @@ class TopQuadric(Quadric):
         names = np.array([_exactly(row).kind for row in rows]).reshape(self.shape)
         return names if names.ndim else str(names)
 
-    @kept
+    @frozen_property
     def D(self) -> FloatOrArray:
         """D = A + kappa^2 + a0/n3, over I2, in 1/time^2, rounded once.
 
@@ -339,7 +339,7 @@ class TopQuadric(Quadric):
         values: FloatOrArray = self._over(top.D, lambda exact: exact.D)
         return values
 
-    @kept
+    @frozen_property
     def semi_axes(self) -> tuple[float, float, float] | FloatArray:
         """Semi-axes C1, C2, C3, the roots of |D| n2^2 (1, |a2|, |a3|), in rad/time; a tuple, or shape (..., 3).
 
@@ -350,7 +350,7 @@ class TopQuadric(Quadric):
         C1, C2, C3 = (plain(np.where(np.asarray(self._top[4]) == 0, 0.0, C)) for C in semi_axes)
         return (C1, C2, C3) if isinstance(C1, float) else np.stack((C1, C2, C3), axis=-1)
 
-    @kept
+    @frozen_property
     def centre(self) -> FloatArray:
         """Centre (0, omega2, omega3) of the surface, w = v = 0, shape (..., 3), in rad/time; for n2 = 0 too."""
         second, third = self._over(top.centre, lambda exact: exact.centre[1:], degree=(1, 1))
@@ -375,7 +375,7 @@ class TopQuadric(Quadric):
         if upright:
             inputs[4] = np.where(np.asarray(inputs[4]) == 0, 1.0, inputs[4])
         exactly = partial(rounded, lambda *row: exact(_exactly(row[:8]), *row[8:]))
-        return over(top.of_given(formula), *inputs, *points, degree=degree, alone=exactly)
+        return over(top.of_given(formula), *inputs, *points, degree=degree, scalar_path=exactly)
 
     def _needs_finite(self) -> None:
         """Raise DomainError where D is infinite: n3 = 0 with a linear potential."""

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE, TIME
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.given import broadcast, exact_number, low_word, part
+from atlas.arithmetic.given import broadcast, elements, exact_number, low_word
 from atlas.arithmetic.inputs import (
     FloatArray,
     as_given,
     common_shape,
     components,
-    kept,
+    frozen_property,
     numbers,
     plain,
     real,
@@ -140,7 +140,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         for i in np.flatnonzero(rows)[:1]:
             self._single(i)
 
-    @kept
+    @frozen_property
     def case(self) -> NameOrArray:
         """Name of the formula that applies, see the Notes of the class: a string, or an array of strings."""
         return np.array(CASES)[self._codes] if self.shape else self._single().case
@@ -150,23 +150,23 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """Type of the motion, equal to `case`: a string, or an array of strings."""
         return self.case
 
-    @kept
+    @frozen_property
     def omega2(self) -> FloatOrArray:
         """Second component of the initial angular velocity, as given, in rad/time."""
         values: FloatOrArray = plain(np.broadcast_to(self._inputs[4], self.shape))
         return values
 
-    @kept
+    @frozen_property
     def omega3(self) -> FloatOrArray:
         """Third component of the angular velocity, constant by (71) or as given where free, in rad/time."""
         return self._scalars[0]
 
-    @kept
+    @frozen_property
     def k(self) -> FloatOrArray:
         """Frequency of precession about the field, k = omega2/B2hat by (79), B2hat = B2/|B|, in rad/time."""
         return self._scalars[1]
 
-    @kept
+    @frozen_property
     def phi(self) -> FloatOrArray:
         """Frequency of proper rotation phi by (72), in rad/time."""
         return self._scalars[2]
@@ -244,7 +244,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
             return [(CASES[present[0]], slice(None), [broadcast(inputs[0], self.shape), *inputs[1:]])]
         rows = [broadcast(x, self.shape) for x in inputs]
         return [
-            (CASES[code], index, [part(x, index) for x in rows])
+            (CASES[code], index, [elements(x, index) for x in rows])
             for code in present
             for index in [np.flatnonzero(codes == code)]
         ]
@@ -354,7 +354,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         """
         if self.is_placed:
             return self._momentum_of(lambda Omega: Omega, t)
-        return self._evaluate(lambda single, t, out: single.turned(single.vector("m"), t, out), t, (3,))
+        return self._evaluate(lambda single, t, out: single.rotate(single.vector("m"), t, out), t, (3,))
 
     def invariants(self, t: RealArrayLike | None = None) -> dict[str, FloatOrArray]:
         """Constants of the motion E', K^2, c3, c5, eqs. (36)-(41), and (m, B')/I2, eq. (88).
@@ -462,12 +462,12 @@ class FreeMotion(DoubleTurn[Free]):
         self.ratio, self.omega = kept_ratio(ratio, plain(I3)), tuple(map(plain, omega))
         self.arguments = {"ratio": kept_ratio(ratio, I3), "omega": tuple(map(as_given, omega))}
 
-    @kept
+    @frozen_property
     def k(self) -> FloatOrArray:
         """Frequency of precession about m, k = |m|/I2, above (87), in rad/time."""
         return over(lambda *inputs: axis_and_rates(*inputs)[1], *self._inputs, unit=self._frequencies)
 
-    @kept
+    @frozen_property
     def phi(self) -> FloatOrArray:
         """Frequency of proper rotation phi = (1 - I) omega3, (87), in rad/time."""
         return over(lambda *inputs: axis_and_rates(*inputs)[2], *self._inputs, unit=self._frequencies)
@@ -497,7 +497,7 @@ class FreeMotion(DoubleTurn[Free]):
         """
         return turn_time(self.phi)
 
-    @kept
+    @frozen_property
     def mode(self) -> NameOrArray:
         """Axis that the momentum circles: "long axis" (I3 < I2), "short axis" (I3 > I2), "ball" or "at rest"."""
         difference, *omega = np.broadcast_arrays(excess(*self._inputs[:2]), *self._inputs[2:])

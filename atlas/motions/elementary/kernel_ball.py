@@ -8,13 +8,13 @@ from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import INERTIA, MOMENTUM, RATE
 from atlas.arithmetic.double_double import over
 from atlas.arithmetic.given import exact_number
-from atlas.arithmetic.inputs import FloatArray, as_given, components, kept, numbers, plain
+from atlas.arithmetic.inputs import FloatArray, as_given, components, frozen_property, numbers, plain
 from atlas.arithmetic.numbers import (
-    alone,
     as_rational,
     cross,
     direction,
     dot,
+    evaluate_rounded,
     length,
     nearest,
     unit,
@@ -40,7 +40,10 @@ class Ball(DoubleRotation):
             axis_vector, gamma, alpha = turning(*exact(inertia, larmor, m2, m3))
             # (29) is 0/0 at m2 = 0, m3 = -alpha I0: gamma = 0 there, and any axis will do
             axis = (ZERO, *direction(axis_vector)) if gamma != 0 else (ZERO, ZERO, -ONE)
-        self.vectors = {"m": (0.0, np.asarray(m2), np.asarray(m3)), "Omega": (0.0, *alone(rates, inertia, m2, m3))}
+        self.vectors = {
+            "m": (0.0, np.asarray(m2), np.asarray(m3)),
+            "Omega": (0.0, *evaluate_rounded(rates, inertia, m2, m3)),
+        }
         super().__init__(axis, gamma, alpha, inverse=True)
 
 
@@ -88,7 +91,7 @@ class BallMotion(DoubleTurn[Ball]):
         momentum = (as_given(m2), as_given(m3))
         self.arguments = {"inertia": as_given(inertia), "larmor": as_given(larmor), "momentum": momentum}
 
-    @kept
+    @frozen_property
     def gamma(self) -> FloatOrArray:
         """Frequency gamma = sqrt(m2^2 + (alpha I0 + m3)^2)/I0 of the rotation about k_hat, (29), in rad/time."""
         return over(lambda *inputs: turning(*inputs)[1], *self._inputs, unit=self._frequencies)
@@ -105,7 +108,7 @@ class BallMotion(DoubleTurn[Ball]):
         values: FloatOrArray = plain(-np.asarray(self.gamma))
         return values
 
-    @kept
+    @frozen_property
     def k_hat(self) -> tuple[FloatOrArray, FloatOrArray]:
         """Components (k2, k3) of the unit axis (29); (0, -1) for gamma = 0, where (29) is 0/0."""
         k2, k3 = over(

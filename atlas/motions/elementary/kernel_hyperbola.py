@@ -9,7 +9,7 @@ import numpy as np
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.inputs import FloatArray, as_given, components, plain, positive, real, whole
+from atlas.arithmetic.inputs import FloatArray, as_given, components, integer, plain, positive, real
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
 from atlas.arithmetic.words import exact
@@ -411,7 +411,7 @@ class Hyperbola(Shown):
                 "With B2 = 0 or B3 = 0 the curve is straight and has no parameter: give a number of points."
             )
         if self.B2 == 0:
-            y = np.linspace(-extent, extent, whole(points, "The number of points"))
+            y = np.linspace(-extent, extent, integer(points, "The number of points"))
             return ((np.zeros_like(y), y - self.B3),)
         x, y = (np.linspace(-extent, extent, n) for n in halves(points))
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from atlas.arithmetic.annotations import FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
-from atlas.arithmetic.inputs import FloatArray, finite, kept, plain
+from atlas.arithmetic.inputs import FloatArray, finite, frozen_property, plain
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.errors import DomainError
@@ -61,12 +61,12 @@ class NutatingMotion(Motion[Nutation]):
         """The motions as `Rows`, for a few times each."""
         return Rows(self._blocks, self._motions_of)
 
-    @kept
+    @frozen_property
     def kind(self) -> NameOrArray:
         """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._of_all("kind", lambda exact: exact.kind, lambda codes: np.array(self._kinds, dtype=NAME)[codes])
 
-    @kept
+    @frozen_property
     def period(self) -> FloatOrArray:
         """Period T of nutation; inf on a separatrix.
 
@@ -82,7 +82,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("period")
 
-    @kept
+    @frozen_property
     def precession_per_period(self) -> FloatOrArray:
         """Angle of precession about the field in one period, in rad.
 
@@ -98,7 +98,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("precession_per_period")
 
-    @kept
+    @frozen_property
     def spin_per_period(self) -> FloatOrArray:
         """Angle of rotation about the body's own axis in one period, in rad: the integral of Omega3 - nu dpsi/dt.
 
@@ -131,7 +131,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._rate("spin")
 
-    @kept
+    @frozen_property
     def modulus(self) -> FloatOrArray:
         """Modulus k of the elliptic functions: 0 for elementary nutation, 1 on a separatrix.
 
@@ -142,7 +142,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("modulus")
 
-    @kept
+    @frozen_property
     def complementary_modulus(self) -> FloatOrArray:
         """Complementary modulus sqrt(1 - k^2) of the elliptic functions, accurate next to a separatrix.
 
@@ -153,7 +153,7 @@ class NutatingMotion(Motion[Nutation]):
         """
         return self._scalar("complementary_modulus")
 
-    @kept
+    @frozen_property
     def nome(self) -> FloatOrArray:
         """Nome q = exp(-pi K'/K) of the elliptic functions: 0 for elementary nutation, 1 on a separatrix.
 
@@ -277,7 +277,7 @@ def scalar(exact: Any, name: str, *, strict: bool) -> float:
 class SymmetricMotion(NutatingMotion[Nutation]):
     """Motions of bodies with I1 = I2, whose quartic Q is that of Omega3, or, for tops, of nu = cos theta."""
 
-    @kept
+    @frozen_property
     def roots(self) -> tuple[float, ...] | FloatArray:
         """Roots of the quartic Q in Omega3 (for tops in nu): complex, shape (..., 4), real roots first and ascending.
 
@@ -288,7 +288,7 @@ class SymmetricMotion(NutatingMotion[Nutation]):
         """
         return self._of_all("roots", lambda exact: padded(enclosed(lambda: exact.roots, BITS)))
 
-    @kept
+    @frozen_property
     def turning_points(self) -> tuple[FloatOrArray, FloatOrArray]:
         """Tuple (least, largest) Omega3 in rad/time, for tops nu = cos theta.
 

@@ -7,7 +7,7 @@ import numpy as np
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, RATE
-from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
+from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, frozen_property, plain
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.bodies.clebsch_integrals import conserved
 from atlas.motions.nutation.certified_elliptic import EllipticMotion as Balls
@@ -102,7 +102,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         field = tuple(map(as_given, columns[3:6]))
         self.arguments = {"inertia": self.inertia, "field": field, "z": self.z, "branch": self.branch}
 
-    @kept
+    @frozen_property
     def precession_rate(self) -> FloatOrArray:
         """Mean rate of precession about the field of the axis that K circles, in rad/time; also for constant K.
 
@@ -113,7 +113,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return self._scalar("precession_rate")
 
-    @kept
+    @frozen_property
     def spin_rate(self) -> FloatOrArray:
         """Mean rate of rotation about the axis that K circles: 2 pi/`period`, -2 pi/`period` or 0, in rad/time.
 
@@ -124,7 +124,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return self._scalar("spin_rate")
 
-    @kept
+    @frozen_property
     def stability(self) -> FloatOrArray:
         """Orbital stability of the curve of K and M: "stable", "unstable" or "undecided", or an array of these.
 
@@ -136,7 +136,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return self._of_all("stability", lambda exact: exact.stability)
 
-    @kept
+    @frozen_property
     def splitting(self) -> FloatOrArray:
         """Squared frequency of small departures, theorem-splitting, in 1/time^2; negative where unstable.
 
@@ -153,7 +153,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return finite(self._scalar("splitting"), "splitting")
 
-    @kept
+    @frozen_property
     def v(self) -> FloatOrArray:
         """Root v = branch sqrt((z + D/I1)(z + D/I2)(z + D/I3)), in inertia^3.
 
@@ -164,7 +164,7 @@ class EllipticMotion(NutatingMotion[SingleElliptic]):
         """
         return finite(self._scalar("v"), "v")
 
-    @kept
+    @frozen_property
     def omega(self) -> tuple[FloatOrArray, FloatOrArray, FloatOrArray]:
         """Initial angular velocity (omega1, omega2, omega3) = -[1 + v (z II + D)^-1] B', in rad/time.
 

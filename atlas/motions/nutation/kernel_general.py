@@ -7,7 +7,7 @@ import numpy as np
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import RATE
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain
+from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, frozen_property, plain
 from atlas.arithmetic.numbers import nearest, workprec
 from atlas.bodies.body import exact_moments, kept_ratio
 from atlas.bodies.certified_body import Moments
@@ -158,7 +158,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         axial = finite(plain((self._momentum(Omega + K) * K).sum(-1)), CONSTANTS[-1])
         return dict(zip(CONSTANTS, (four.E, four.K2, four.c3, four.c5, axial), strict=True))
 
-    @kept
+    @frozen_property
     def _constants(self) -> Any:
         """E', K^2, c3, c5 and (M, B')/I2 of the inputs, a list of five floats or arrays, each rounded once.
 

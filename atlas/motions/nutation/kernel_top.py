@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, LENGTH, MASS, RATE, SI_FIELDS
-from atlas.arithmetic.double_double import given, over
+from atlas.arithmetic.double_double import exact_results, over
 from atlas.arithmetic.given import exact_number
-from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, number, plain, positive
+from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, frozen_property, number, plain, positive
 from atlas.arithmetic.numbers import Number, as_rational, length, nearest, rational, select, workprec
 from atlas.bodies.body import SymmetricBody
 from atlas.bodies.charge import ChargeMoments
@@ -273,7 +273,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         coupling = [exact_number(rational(J) * half) for J in charges.exact]
         return cls((I2, I3), coupling, (B2, B3), omega, linear=exact_number(linear), quadratic=exact_number(quadratic))
 
-    @kept
+    @frozen_property
     def stable(self) -> bool | NDArray[np.bool_]:
         """True if a motion with constant theta is stable, else False, theorem-top-nutation; None where theta varies.
 
@@ -362,7 +362,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         n, w = start.components_along(np.eye(3))
         axes: FloatArray = np.eye(3)
         if np.any(n[0]):
-            n2, n3, w1, w2, w3, c, s = given(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)
+            n2, n3, w1, w2, w3, c, s = exact_results(_in_plane, *n, *w, 1.0, unit=slice(3, 6), count=7)
             n, w = [0.0, n2, n3], [w1, w2, w3]
             zero, unity, c, s = np.broadcast_arrays(0.0, 1.0, np.asarray(c), np.asarray(s))
             axes = np.moveaxis(np.array([[c, -s, zero], [s, c, zero], [zero, zero, unity]]), (0, 1), (-2, -1))
@@ -417,7 +417,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         if t is None:
             *top, w1, w2, w3, a0, A0 = self._inputs
             inputs = *top, a0, A0, w1, w2, w3
-            twice, M3, p = map(plain, over(of_given(constants), *inputs, degree=(1, 1, 1), alone=_constants))
+            twice, M3, p = map(plain, over(of_given(constants), *inputs, degree=(1, 1, 1), scalar_path=_constants))
             return {"h": finite(twice / 2, "h"), "M3": M3, "p": p}
         Omega, b = map(self._along_class, (self.angular_velocity(t), self.field_in_body(t)))
         M = self._momentum(t)

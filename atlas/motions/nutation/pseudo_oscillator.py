@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.inputs import FloatArray, common_shape, finite, kept, plain, real, vectors
+from atlas.arithmetic.inputs import FloatArray, common_shape, finite, frozen_property, plain, real, vectors
 from atlas.arithmetic.lazy import cached_property
 from atlas.bodies.body import kept_ratio, moments
 from atlas.bodies.formula_integrals import cubic, quartic
@@ -37,7 +37,7 @@ class PseudoOscillator:
         K = np.stack(np.broadcast_arrays(0.0, self.B2, self.B3), axis=-1)
         return integrals(self.ratio, np.stack([self.omega1, self.omega2, self.omega3], axis=-1), K)
 
-    @kept
+    @frozen_property
     def coefficients(self) -> tuple[Any, ...]:
         """Coefficients (a0, a1, a2, a3) of the cubic p, (48), the constant first: floats, or arrays of `shape`.
 
@@ -45,7 +45,7 @@ class PseudoOscillator:
         """
         return self._of_integrals(cubic, "A coefficient of the cubic (47)")
 
-    @kept
+    @frozen_property
     def quartic_coefficients(self) -> tuple[Any, ...]:
         """Coefficients (q0, ..., q4) of the first integral Q(u) = (du/dt)^2, the constant first: floats, or arrays.
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from atlas.arithmetic.double_double import BLOCK, MAX_INPUT, DoubleDouble, blocks, chosen, constant, stacked
-from atlas.arithmetic.given import broadcast, ldexp, part
+from atlas.arithmetic.given import broadcast, elements, ldexp
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.rotation_rows import PER_RADIAN
@@ -216,7 +216,7 @@ class TopBlocks(Blocks):
         """Yield the blocks of tops, in order, their inputs divided by powers of two."""
         columns = [broadcast(x, self.shape) for x in self.inputs]
         for start in range(0, self.count, BLOCK):
-            batch = [part(x, slice(start, start + BLOCK)) for x in columns]
+            batch = [elements(x, slice(start, start + BLOCK)) for x in columns]
             rows_of_block = [np.asarray(x) for x in batch]
             powers, exponents = _powers(rows_of_block)
             scaled = [x if power is None else ldexp(x, -power) for x, power in zip(batch, powers, strict=True)]

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, signed, stacked
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, more_accurate, signed, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows_means import MEANS_TOLERANCE, Circle, Level, Means
@@ -234,7 +234,7 @@ def _steps(
     # of p and of d = p - a each the form that loses less: the bounds of one grow where p is large, of the other near a
     by_product = d * (d + m.difference) / p.scaled(1)
     half = (p + m.product / p).scaled(-1)
-    p, d = better(after.a + by_product, half), better(half - after.a, by_product)
+    p, d = more_accurate(after.a + by_product, half), more_accurate(half - after.a, by_product)
     going = (np.maximum(abs(Q.hi), x.hi) > MEANS_TOLERANCE).any(axis=0)
     ended = DoubleDouble(Q.hi, Q.lo, Q.rel + 1.0), DoubleDouble(term.hi, term.lo, term.rel + 2 * x.hi).sqrt()
     if not going.any() or len(levels) == 2:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import fmpq
 
-from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, more_accurate, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number
@@ -310,8 +310,8 @@ def turning(
     f0 = q[2] + s * f1 - t * f2
     # next to a separatrix f is small at 0, where its value and slope are those of Q over t; where 0 is a turning point,
     # t = 0 and s the other one, those of Q/v over -s
-    f0 = better(f0, chosen(starts_flat, -(q[1] / s), q[0] / t))
-    f1 = better(f1, chosen(starts_flat, (f0 - q[2]) / s, (q[1] + s * f0) / t))
+    f0 = more_accurate(f0, chosen(starts_flat, -(q[1] / s), q[0] / t))
+    f1 = more_accurate(f1, chosen(starts_flat, (f0 - q[2]) / s, (q[1] + s * f0) / t))
     return low, high, (f0, f1, f2)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.double_double import ONE, DoubleDouble, better, chosen, constant, stacked
+from atlas.arithmetic.double_double import ONE, DoubleDouble, chosen, constant, more_accurate, stacked
 from atlas.arithmetic.inputs import FloatArray
 from atlas.arithmetic.lazy import cached_property
 from atlas.motions.nutation.rows_roots import Roots, TurningPoints
@@ -54,7 +54,7 @@ class Sphere:
         plain = stacked(self.poles[0] - self.roots.high, self.roots.low - self.poles[1])
         beyond = -((f2 * self.poles + f1) * self.poles + f0)
         by_torque = self.torques * self.torques / (beyond * self.far_distance)
-        return better(plain, by_torque)
+        return more_accurate(plain, by_torque)
 
 
 def sphere_of_field(r: Roots) -> Sphere:

@@ -9,7 +9,7 @@ import numpy as np
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import ENERGY, RATE
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.inputs import FloatArray, number, plain, positive, real, whole
+from atlas.arithmetic.inputs import FloatArray, integer, number, plain, positive, real
 from atlas.arithmetic.numbers import nearest, rounded
 from atlas.bodies.display import Shown
 from atlas.bodies.symmetric_top import arguments_of, inputs_of_top
@@ -28,7 +28,7 @@ def halves(points: Any) -> tuple[int, int]:
 
     Raises AtlasError for fewer than two points.
     """
-    count = whole(points, "The number of points of two branches", 2)
+    count = integer(points, "The number of points of two branches", 2)
     return count - count // 2, count // 2
 
 
@@ -165,4 +165,4 @@ class TopHyperbola(Shown):
         one omega2. Raises DomainError at the pole.
         """
         values, is_single = real(omega2, "omega2", RATE), partial(rounded, lambda *row: exact(row[8]))
-        return over(top.of_given(formula), *self._top, plain(values), degree=degree, alone=is_single)
+        return over(top.of_given(formula), *self._top, plain(values), degree=degree, scalar_path=is_single)

@@ -6,7 +6,7 @@ import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.dimensions import LENGTH
-from atlas.arithmetic.inputs import FloatArray, common_shape, kept, vectors
+from atlas.arithmetic.inputs import FloatArray, common_shape, frozen_property, vectors
 from atlas.bodies.display import Shown
 from atlas.bodies.field import LaboratoryFrame
 from atlas.errors import AtlasError
@@ -62,7 +62,7 @@ class Flight(Shown):
         common_shape(particle.shape, getattr(motion, "shape", ()), self.point.shape[:-1])
         self._compare_fields()
 
-    @kept
+    @frozen_property
     def _arm(self) -> FloatArray:
         """Vector from the centre of mass to the point, (..., 3), along the axes in which R(0) of `motion` is given.
 

@@ -306,7 +306,9 @@ class Charge:
             with workprec():
                 return [rounded(x) for x in _sequence(formula(*map(rational, row)))]
 
-        return np.array(over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, alone=row_values))
+        return np.array(
+            over(lambda *x: _sequence(formula(*x)), *self.safe, degree=(0,) * count, scalar_path=row_values)
+        )
 
 
 def _any(components: Any) -> Any:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from atlas.arithmetic.annotations import BodyLike, FieldLike, FloatOrArray, NameOrArray, RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import INERTIA, RATE
-from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, kept, plain, real
+from atlas.arithmetic.inputs import FloatArray, as_given, components, finite, frozen_property, plain, real
 from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.rotation import IDENTITY, target
@@ -319,12 +319,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         self.inertia, self.field, self.omega = rounded[:3], rounded[3:6], rounded[6:]
         self.arguments = {"inertia": exact[:3], "field": exact[3:6], "omega": exact[6:]}
 
-    @kept
+    @frozen_property
     def kind(self) -> NameOrArray:
         """Type of the motion, see the Notes of the class: a string, or an array of strings."""
         return self._of_each(lambda single: single.exact.kind)
 
-    @kept
+    @frozen_property
     def H(self) -> FloatOrArray:
         """Integral H = (M, II^-1 M)/2 + (K, II K)/2 with M = II (Omega + K), theorem-lie-poisson, in inertia/time^2.
 
@@ -335,7 +335,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return finite(self._of_each(lambda single: nearest(single.exact.H)), "H")
 
-    @kept
+    @frozen_property
     def F(self) -> FloatOrArray:
         """Clebsch's integral F = M^2 - I1 I2 I3 (K, II^-1 K), theorem-clebsch, in inertia^2/time^2.
 
@@ -346,7 +346,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return finite(self._of_each(lambda single: nearest(single.exact.F)), "F")
 
-    @kept
+    @frozen_property
     def MK(self) -> FloatOrArray:
         """Casimir (M, K): |B'| times the canonical momentum along B', in inertia/time^2.
 
@@ -357,7 +357,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return finite(self._of_each(lambda single: nearest(single.exact.MK)), "(M, K)")
 
-    @kept
+    @frozen_property
     def energy(self) -> FloatOrArray:
         """Kinetic energy (Omega, II Omega)/2 = H - (M, K), theorem-kinetic-energy, in inertia/time^2.
 
@@ -368,12 +368,12 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return finite(self._of_each(lambda single: nearest(single.exact.energy)), "The energy")
 
-    @kept
+    @frozen_property
     def agreement(self) -> NameOrArray:
         """Proof status of the closed form, or why none is used: a sentence, or an array of sentences."""
         return self._of_each(lambda single: single.agreement)
 
-    @kept
+    @frozen_property
     def accuracy(self) -> FloatOrArray:
         """Bound on the errors of R, at any time, and of Omega and K relative to the largest rate, see the class.
 
@@ -385,7 +385,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._of_each(lambda single: single.accuracy)
 
-    @kept
+    @frozen_property
     def period(self) -> FloatOrArray:
         """Period of Omega for a free body, of Omega and K for an elliptic motion; of nutation for a symmetric body.
 
@@ -396,7 +396,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._scalar("period")
 
-    @kept
+    @frozen_property
     def precession_rate(self) -> FloatOrArray:
         """Mean rate of precession, in rad/time: of a free body about m, of an elliptic motion about the field.
 
@@ -412,7 +412,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._scalar("precession_rate")
 
-    @kept
+    @frozen_property
     def spin_rate(self) -> FloatOrArray:
         """Mean rate of rotation about the axis that m or K circles: 2 pi/`period` with a sign, in rad/time.
 
@@ -423,7 +423,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
         """
         return self._scalar("spin_rate")
 
-    @kept
+    @frozen_property
     def mode(self) -> NameOrArray:
         """Axis that the momentum of a free body circles: a string, or an array of strings.
 
@@ -441,7 +441,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
     def _scalar(self, name: str) -> FloatOrArray:
         return self._of_each(lambda single: scalar(single.exact, name, strict=not self.shape))
 
-    @kept
+    @frozen_property
     def frequencies(self) -> FloatArray:
         """Angular frequencies (f1, f2, f3), shape (..., 3), in rad/time, each rounded once from certified balls.
 
@@ -537,7 +537,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
             raise AtlasError(f"A spectral curve is that of one motion, not of an array of them, of shape {self.shape}.")
         return SpectralCurve(self._single().exact)
 
-    @kept
+    @frozen_property
     def riemann_matrix(self) -> NDArray[np.complex128]:
         """Riemann matrix tau of the torus of type (1, 2), symmetric with Im tau > 0; shape (..., 2, 2).
 
