@@ -106,9 +106,9 @@ class ParticleMotion:
         at t = 0, and q its velocity across B less the drift.
         """
         b2, x = dot(self.B, self.B), self._inputs
-        p = tuple(self.mu * particle.along(*x) * b / b2 for b in self.B)
+        p = tuple(self.mu * particle.scalar_product(*x) * b / b2 for b in self.B)
         q = tuple(a / b2 for a in particle.circling(*x))
-        return tuple(particle.carried(*x)), p, tuple(particle.arm(*x)), q
+        return tuple(particle.drift_velocity(*x)), p, tuple(particle.arm(*x)), q
 
     def _circle(self, t: fmpq) -> tuple[Real, Real]:
         """Return the balls (sin(|w| t)/|w|, cos(|w| t)), w the cyclotron frequency in rad/time."""

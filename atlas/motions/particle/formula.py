@@ -36,12 +36,12 @@ def crossed(_: Number, __: Number, *x: Number) -> Vector:
     return cross(x[:3], x[3:6])
 
 
-def along(_: Number, __: Number, *x: Number) -> Number:
+def scalar_product(_: Number, __: Number, *x: Number) -> Number:
     """Return the scalar product (E, B); arguments as for `rate`."""
     return dot(x[:3], x[3:6])
 
 
-def bent(_: Number, __: Number, *x: Number) -> Vector:
+def bending(_: Number, __: Number, *x: Number) -> Vector:
     """Return [E, v], v the velocity: zero if E does not bend a path without magnetic force; arguments as for `rate`."""
     return cross(x[:3], x[6:9])
 
@@ -84,7 +84,7 @@ def arm(mu: Number, c: Number, *x: Number) -> Vector:
     return [c * a / (mu * b2 * b2) for a in cross(x[3:6], circling(mu, c, *x))]
 
 
-def carried(_: Number, c: Number, *x: Number) -> Vector:
+def drift_velocity(_: Number, c: Number, *x: Number) -> Vector:
     """Return the velocity of the point O of (99) at t = 0: across B the drift, along B that of the particle.
 
     Three components; arguments as for `rate`, with B not zero.
@@ -95,7 +95,7 @@ def carried(_: Number, c: Number, *x: Number) -> Vector:
 
 def centre(mu: Number, c: Number, *x: Number) -> Vector:
     """Return six components: of the point O(0) of (99), then of its velocity; arguments as for `arm`."""
-    return [*(y - a for y, a in zip(x[9:12], arm(mu, c, *x), strict=True)), *carried(mu, c, *x)]
+    return [*(y - a for y, a in zip(x[9:12], arm(mu, c, *x), strict=True)), *drift_velocity(mu, c, *x)]
 
 
 def axes(_: Number, __: Number, *x: Number) -> Vector:

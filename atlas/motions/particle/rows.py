@@ -175,14 +175,14 @@ class Charge:
     @cached_property
     def case(self) -> Any:
         """Array of names in CASES, () or (m,), from which of mu E, mu B, (E, B) and [E, B] vanish."""
-        parallel, oblique = ~_any(self._signs("crossed", 3)), self._signs("along", 1)[0] != 0
+        parallel, oblique = ~_any(self._signs("crossed", 3)), self._signs("scalar_product", 1)[0] != 0
         chosen = [~self.force & self.driven, ~self.force, ~self.driven, parallel, oblique]
         return np.array(CASES)[np.select(chosen, range(5), 5)]
 
     @cached_property
     def kind(self) -> Any:
         """Array of names in KINDS, () or (m,), of the paths perpendicular to B, see `ParticleMotion.kind`."""
-        moving, curved = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bent", 3))
+        moving, curved = _any(self.inputs[8:11]), (self.mu != 0) & _any(self._signs("bending", 3))
         drifting, circling = (_any(self._signs(name, 3)) for name in ("crossed", "circling"))
         larger, straight = self._signs("looping", 1)[0], ~drifting | ~circling
         chosen = [
