@@ -168,7 +168,7 @@ def settle(drafts: Mapping[str, Path], out: Path, further_lines: Iterable[str] =
     digests = {name: digest_of(draft) or "" for name, draft in drafts.items()}
     old_lines = lines(out)
     before = old_lines | {line for line in further_lines if line[66:] in digests}
-    places = free(digests, out, before)
+    places = free_names(digests, out, before)
     names = {*places.values()}
     for name in names:
         if (out / name).is_dir():
@@ -239,7 +239,7 @@ def edited(folder: Path, name: str, lines: set[str]) -> bool:
     return path.exists() and not path.is_dir() and f"{digest_of(path)}  {name}" not in lines
 
 
-def free(digests: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
+def free_names(digests: Mapping[str, str], folder: Path, lines: set[str]) -> dict[str, str]:
     """Return the names to write in `folder`, by intended name, for new files, whose `digests` are by name.
 
     That is the intended name itself, or NAME.new.SUFFIX where a file under that name is not in the digest list

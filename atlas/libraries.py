@@ -46,7 +46,7 @@ def release(library: str) -> str | None:
         return None
 
 
-def carried(package: str, pattern: str) -> Path | None:
+def package_file(package: str, pattern: str) -> Path | None:
     """Return the first file of an installed package that matches the glob `pattern`, None if there is none.
 
     The package is not imported, which would take longer.

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from atlas.errors import AtlasError
-from atlas.libraries import carried, release
+from atlas.libraries import package_file, release
 
 ALWAYS = "".join(map(chr, range(0x20, 0x7F))) + "\u00a0\u2009\u202f\u2212\u2013\u2014\u2018\u2019\u201c\u201d\u2026"
 GROWING = "\u221a()[]{}|\u2016\u27e8\u27e9\u02c6\u02dc\u02d9\u00a8\u00af\u2032\u2033\u2044/"
@@ -49,7 +49,7 @@ def source(face: Face) -> Path:
 
     Raises AtlasError if the package or the file is missing.
     """
-    path = carried(face.package, face.file)
+    path = package_file(face.package, face.file)
     if path is None:
         raise AtlasError(f"the package {face.package} has no font {face.file}: install the locked dependencies.")
     return path

@@ -124,7 +124,7 @@ def run(arguments: Sequence[str], source: str) -> str:
 @cache
 def _program() -> str:
     """Return the path of pandoc in its package. Raises AtlasError if it is missing."""
-    program = libraries.carried("pypandoc", "files/pandoc*")
+    program = libraries.package_file("pypandoc", "files/pandoc*")
     if program is None:
         raise AtlasError("the package pypandoc_binary with its pandoc is not there: install the locked dependencies.")
     return str(program)

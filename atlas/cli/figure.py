@@ -23,7 +23,7 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
     Raises AtlasError for an unknown recipe.
     """
     from atlas.pictures import recipes
-    from atlas.pictures.parameters import MEANINGS, described, typed
+    from atlas.pictures.parameters import MEANINGS, described, typed_text
 
     recipe = recipes.load(name)
     at_least = f"; it needs a page of {recipe.narrowest:g} mm" if recipe.narrowest else ""
@@ -33,7 +33,7 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
         takes = described(hints.get(key), default) + (f" from {ends[0]:g} to {ends[1]:g}" if ends else "")
         takes += "; left out, the recipe chooses" if default is None else ""
         means = f"{MEANINGS[key]}: " if key in MEANINGS else ""
-        rows.append((key if default is None else f"{key}={typed(default)}", means + takes))
+        rows.append((key if default is None else f"{key}={typed_text(default)}", means + takes))
     return f"{recipe.title}{at_least}. Parameters of {recipe.name}, after --set, with their defaults", rows
 
 

@@ -236,9 +236,9 @@ def _parameter_word(name: str, record: dict[str, Any]) -> str:
 
     `record` has its "default", which may be None, and may have its "range", two numbers.
     """
-    from atlas.pictures.parameters import typed
+    from atlas.pictures.parameters import typed_text
 
-    word = name if record["default"] is None else f"{name}={typed(record['default'])}"
+    word = name if record["default"] is None else f"{name}={typed_text(record['default'])}"
     ends = "[{:g},{:g}]".format(*record["range"]) if "range" in record else ""
     return f"{word}{ends}"
 

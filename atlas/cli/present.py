@@ -71,7 +71,7 @@ def picture(graded: Any, file: Path | None, *, silent: bool) -> None:
         return
     from atlas.pictures.drawing.files import save
 
-    save(graded.scene(), {file: file.suffix.lstrip(".")}, kept=True)
+    save(graded.scene(), {file: file.suffix.lstrip(".")}, keeps_edits=True)
     if not silent:
         click.echo(file)
 

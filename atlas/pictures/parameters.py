@@ -123,10 +123,12 @@ def described(hint: Any, default: Any) -> str:
     return _PLAIN[float if kind is Any else kind][0].partition(",")[0] if kind in {Any, *_PLAIN} else "a value"
 
 
-def typed(value: Any) -> str:
+def typed_text(value: Any) -> str:
     """Return a value as it is typed after ``--set``: "1.5", "1,2", "true"; nested lists are flattened."""
     if isinstance(value, tuple | list):
-        return ",".join(map(typed, value)) + ("," if len(value) == 1 and not isinstance(value[0], tuple | list) else "")
+        return ",".join(map(typed_text, value)) + (
+            "," if len(value) == 1 and not isinstance(value[0], tuple | list) else ""
+        )
     if isinstance(value, bool):
         return str(value).lower()
     return repr(float(value)).removesuffix(".0") if isinstance(value, float | int) else str(value)

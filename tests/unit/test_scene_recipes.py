@@ -14,7 +14,7 @@ from atlas import AtlasError
 from atlas.cli.figure import setting
 from atlas.pictures import recipes
 from atlas.pictures.drawing import context
-from atlas.pictures.parameters import described, fitted, typed
+from atlas.pictures.parameters import described, fitted, typed_text
 from atlas.pictures.style import style
 
 
@@ -261,9 +261,9 @@ def test_types_of_parameters_are_described_in_words(tmp_path: Path) -> None:
         "on": "true or false",
         "side": "left or right",
     }
-    assert typed(recipe.parameters["pairs"]) == "1,2,2,3"
+    assert typed_text(recipe.parameters["pairs"]) == "1,2,2,3"
     for value in (1.5, (1.0, 2.0), (1.0,), True, "s", 1e-6, ("a", "b")):
-        assert setting(f"x={typed(value)}") == ("x", value)
+        assert setting(f"x={typed_text(value)}") == ("x", value)
 
 
 ENDS = {

@@ -80,9 +80,9 @@ class Picture:
     @property
     def command(self) -> str:
         """Shell command "atlas figure ..." that draws the picture; parameters that are None are left out."""
-        from atlas.pictures.parameters import typed
+        from atlas.pictures.parameters import typed_text
 
-        settings = [f"{name}={typed(value)}" for name, value in self.parameters.items() if value is not None]
+        settings = [f"{name}={typed_text(value)}" for name, value in self.parameters.items() if value is not None]
         words = ["atlas", "figure", self.called, *(["--set", *settings] if settings else [])]
         return shlex.join([*words, *(["--renderer", "shaded"] if self.renderer == "shaded" else [])])
 

@@ -143,9 +143,9 @@ class OfRecipe:
 
     def command(self, values: Mapping[str, float]) -> str:
         """Return the command line "atlas figure ..." that draws the same figure, as text, from the sliders' values."""
-        from atlas.pictures.parameters import typed
+        from atlas.pictures.parameters import typed_text
 
-        settings = [f"{key}={typed(value)}" for key, value in self.parameters(values).items()]
+        settings = [f"{key}={typed_text(value)}" for key, value in self.parameters(values).items()]
         return " ".join(["atlas figure", self.name, *(["--set", *settings] if settings else [])])
 
 

@@ -33,7 +33,7 @@ def save(
     style: Any = None,
     target: Target | None = None,
     *,
-    kept: bool = False,
+    keeps_edits: bool = False,
 ) -> "Figure":
     """Draw a scene once, for a target if given, and write it to each path in its format: svg, pdf, png or pgf.
 
@@ -42,7 +42,7 @@ def save(
     without a panel in space, the vector renderer is used; see `choose`. Missing folders are made. Raises AtlasError for
     an unknown format or renderer, for a shaded figure that is not a PNG, for a map of values as PGF, for a style that
     cannot be used, and for a scene that can't be read at its target; OSError where a file cannot be written. With
-    ``kept`` a file that the user wrote or edited stays, the new one is written beside it, and AtlasError says so.
+    ``keeps_edits`` a file that the user wrote or edited stays, the new one is put beside it, and AtlasError says so.
     """
     from atlas.pictures.drawing.panels import to_figure
     from atlas.pictures.drawing.style import context
@@ -60,7 +60,7 @@ def save(
     with context(style, target), _formulas_parsed_once(), ExitStack() as stack:
         figure = to_figure(scene, style, shaded=used == "shaded", target=target)
         for path, kind in files.items():
-            place = stack.enter_context((keeping if kept else replacing)(path))
+            place = stack.enter_context((keeping if keeps_edits else replacing)(path))
             _write(figure, place, kind, scene)
             if target and kind == "png":
                 _opaque(place)
