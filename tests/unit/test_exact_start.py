@@ -266,7 +266,7 @@ def test_an_unknown_rounding_error_is_reported_as_unknown() -> None:
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 def test_a_ball_turned_in_floats_seeks_no_periods(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its slowest period is out of reach: it is certified at once, without integrals along the paths of its torus."""
-    monkeypatch.setattr(Curve, "along", lambda *_: pytest.fail("an integral was taken"))
+    monkeypatch.setattr(Curve, "integrals", lambda *_: pytest.fail("an integral was taken"))
     P, field, omega = Rotation.random(random_state=2).as_matrix(), (0.3, 0.1, 1.0), (0.2, 0.3, 1.0)
     tensor = P.T @ np.eye(3) @ P
     m = atlas.motion((tensor + tensor.T) / 2, field, omega)
