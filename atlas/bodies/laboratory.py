@@ -64,13 +64,13 @@ def damping_of_flight(mu: Any, mass: Any, rate: Any) -> float:
     return e_squared_over_m * number(rate, "The rate") ** 2 / (3 * pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**3)
 
 
-def magnetic_power(mu: Any, across: Any, rate: Any) -> float:
+def magnetic_power(mu: Any, momentum: Any, rate: Any) -> float:
     """Return the power, in W, radiated by the dipole mu L/2 of an angular momentum L precessing at ``rate`` (rad/s).
 
-    ``mu`` is in C/kg; ``across`` is the part of L across the axis of precession, in J s: P = (mu across
+    ``mu`` is in C/kg; ``momentum`` is the part of L across the axis of precession, in J s: P = (mu momentum
     rate^2/2)^2/(6 pi eps0 c^5).
     """
-    moment = number(mu, "mu") * number(across, "The angular momentum") / 2
+    moment = number(mu, "mu") * number(momentum, "The angular momentum") / 2
     return (moment * number(rate, "The rate") ** 2) ** 2 / (6 * pi * ELECTRIC_CONSTANT * SPEED_OF_LIGHT**5)
 
 
