@@ -55,7 +55,7 @@ def _pages(inside: Mapping[str, bytes], place: Path, lines_before: set[str], wor
     """
     before = files.lines(place) | lines_before
     digests = {path: hashlib.sha256(content).hexdigest() for path, content in inside.items()}
-    places = files.free(digests, place, before)
+    places = files.free_names(digests, place, before)
     renamed = {path: new for path, new in places.items() if new != path}
     foreign_paths = _user_files(place, before, {*places.values()})
     lines = {line for line in before if line[66:] in renamed}
