@@ -55,11 +55,11 @@ def test_frequencies_of_elementary_motions_keep_their_bounds() -> None:
     frequencies = ElementaryMotion(I, (B2, B3), w2)._rows.frequencies
     for i in range(I.size):
         with ctx.workprec(3000):
-            words, deficits = frequencies.words[:, :, i].T.tolist(), frequencies.lack[:, i]
+            words, deficits = frequencies.words[:, :, i].T.tolist(), frequencies.errors[:, i]
             for (high, low), most, true in zip(words, deficits, frequencies.exact(i), strict=True):
                 assert not abs(arb(high) + arb(low) - arb(true) / arb.pi()).lower() > most
     size = np.where(moving := frequencies.words[0] != 0, abs(frequencies.words[0]), 1.0)
-    assert np.mean((frequencies.lack <= 2.0**-98 * size)[moving]) > 0.9
+    assert np.mean((frequencies.errors <= 2.0**-98 * size)[moving]) > 0.9
 
 
 def true_of(sample: Any) -> tuple[Any, Callable[[Any], Any]]:

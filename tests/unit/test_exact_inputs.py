@@ -215,7 +215,7 @@ def test_a_page_of_three_components_takes_the_product_without_rounding() -> None
     product = [Fraction(1.3) * Fraction(B) / 2 for B in (0.2, 0.7, -0.3)]
     assert [Fraction(int(x.p), int(x.q)) for x in report_thing.balls().field] == product
     assert [Fraction(*x.as_integer_ratio()) for x in report_thing.kernels().arguments["field"]] == product
-    assert report_thing.given["field"] == [*map(float, product)]
+    assert report_thing.numbers["field"] == [*map(float, product)]
 
 
 def test_a_page_in_natural_units_takes_the_product_without_rounding() -> None:

@@ -400,10 +400,10 @@ def test_slopes_in_the_attitude_agree_with_motions_beside(family: str, fixed: tu
     problem.error = 1e-11
     values = {**OF_THREE, "ratio": 1.4, "z": 2.0}
     x, h = np.array([values[name] for name in problem.names]), 1e-4
-    _, J = problem.turned(x[None])
+    _, J = problem.residuals_and_slopes(x[None])
     for name in ("a1", "a2", "a3"):
         i = problem.names.index(name)
-        up, down = problem.apart(x + h * np.array([[1.0], [-1.0]]) * np.eye(x.size)[i])
+        up, down = problem.residuals_of_all(x + h * np.array([[1.0], [-1.0]]) * np.eye(x.size)[i])
         assert J[0, i] == pytest.approx((up - down) / (2 * h), abs=3e-5)
 
 

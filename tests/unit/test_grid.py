@@ -192,7 +192,7 @@ def test_phases_agree_with_the_exact_times(start: float, step: float, origin: in
     """Half the phase less half turns of this parity is within 2^-6 w; where it is small, within 2.5 w of itself."""
     phases = Progression([rational(turn) for turn in TURNS], start, step, origin, max(PLACES))
     i = np.array([PLACES, np.ones(len(PLACES))])
-    head, low_word, sign, _ = phases.parts(i, np.empty((8, len(TURNS), len(PLACES))))
+    head, low_word, sign, _ = phases.reduced(i, np.empty((8, len(TURNS), len(PLACES))))
     with mp.workdps(60):
         for n, turn in enumerate(TURNS):
             for m, place in enumerate(PLACES):
