@@ -18,7 +18,7 @@ import atlas
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
 from atlas.cli.body_request import COMMANDS, ByOptions
-from atlas.cli.body_request import asked as page_asked
+from atlas.cli.body_request import report_request as page_asked
 from atlas.cli.explore import started
 from atlas.cli.points import oblique_tensor
 from atlas.cli.typed import REAL, Typed

@@ -23,7 +23,7 @@ from atlas.book.tables.properties import FamilyObject
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.body_request import COMMANDS
-from atlas.cli.body_request import asked as page_request
+from atlas.cli.body_request import report_request as page_request
 from atlas.errors import DomainError, NearlySymmetricWarning
 from atlas.motions.elementary.certified_hyperbola import Hyperbola as CertifiedHyperbola
 from atlas.motions.elementary.formula_hyperbola import closing

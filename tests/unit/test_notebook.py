@@ -32,7 +32,7 @@ from atlas import (
 )
 from atlas.bodies.display import Shown
 from atlas.motions.register import FAMILIES
-from atlas.notebook.pictures import alone, scene_of
+from atlas.notebook.pictures import scene_of, single_panel
 from atlas.notebook.show import picture
 from atlas.pictures import Curve, Plane, Scene, recipes
 from atlas.pictures.drawing.window import mimebundle
@@ -161,7 +161,7 @@ def test_html_has_proven_digits() -> None:
 def test_a_panel_alone_is_as_large_as_in_its_figure(count: int, columns: int, size: tuple[float, float]) -> None:
     """The figure is divided into its columns and as many rows as its panels fill."""
     panels = tuple(Plane((), f"x{k}", "y") for k in range(1, count + 1))
-    scene = alone(Scene("t", "c", "a", panels, columns=columns, size=(100.0, 80.0)), count)
+    scene = single_panel(Scene("t", "c", "a", panels, columns=columns, size=(100.0, 80.0)), count)
     assert (scene.size, scene.panels, scene.columns) == (size, panels[-1:], 1)
 
 

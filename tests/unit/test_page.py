@@ -31,7 +31,7 @@ from atlas.book.tables.properties import lettered
 from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.cli.app import main
-from atlas.cli.body_request import COMMANDS, asked, best
+from atlas.cli.body_request import COMMANDS, best, report_request
 from atlas.cli.words import Words
 from atlas.errors import AtlasError
 from atlas.motions.elementary.kernel import ElementaryMotion
@@ -444,7 +444,7 @@ def test_a_field_at_an_angle_is_shown_as_typed() -> None:
     words = "--ratio 1.5 --magnetic 0.8T --angle 30deg --mu 1C/kg --omega2 0.3"
     context = COMMANDS["motion"].make_context("motion", words.split())
     with context:
-        request = asked(FAMILIES["elementary"], context.params)
+        request = report_request(FAMILIES["elementary"], context.params)
     assert request.command == f"atlas report your_body {words}"
     assert request.field["title"] == "field of 0.8 T at 30\N{DEGREE SIGN}"
 
