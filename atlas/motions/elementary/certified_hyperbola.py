@@ -55,9 +55,10 @@ class Hyperbola(BodyInField):
         return omega3
 
     def frequencies(self, omega2: Any) -> tuple[Real, fmpq]:
-        """Return (k = omega2/B2hat of (79), phi of (72)) in rad/time at omega2.
+        """Return (k = omega2/B2hat of (79), phi of (72)) in rad/time at omega2, with B2hat = B2/|B|.
 
-        Raises DomainError at the pole, and for B2 = 0.
+        k is the frequency of precession about the field, a ball or a rational; phi that of the rotation about the
+        body's axis. Raises DomainError at the pole, and for B2 = 0.
         """
         w2 = self._off_the_pole(omega2)
         k, phi = hyperbola.frequencies(*self._constants, w2)

@@ -255,9 +255,10 @@ class ElementaryMotion(DoubleTurn[Elementary]):
     ) -> tuple[Any, FloatArray] | None:
         """Return (motion, axes), the axes turned about e3 so that B1 = 0; None where no elementary motion starts.
 
-        The axes (3, 3) have the axes of the class as rows. ``omega2`` and ``omega3`` replace the components of the
-        start. None for a body that is not symmetric; without ``omega2`` also for arrays, without a field, and for a
-        start with nutation.
+        The axes (3, 3) have the axes of the class as rows along the given ones. ``omega2`` and ``omega3``, along the
+        turned axes, replace the components of the start; ``omega3`` without ``omega2`` is not used. None for a body
+        that is not symmetric; without ``omega2`` also for arrays, without a field, and for a start with nutation. With
+        ``omega2`` raises DomainError as the class does.
         """
         from atlas.motions.nutation.kernel_general import standing
 

@@ -49,15 +49,18 @@ class Sphere:
 
     @cached_property
     def tilt(self) -> tuple[Real, Real, Real, Real]:
-        """Tilt of the vector at t = 0: (cos, sin of half the polar angle, cos, sin of the azimuth), see `tilt_of`."""
+        """Tilt of `start`: (cos, sin of half the polar angle, cos, sin of the azimuth), see `tilt_of`.
+
+        The azimuth is 0 along the second axis and a right angle along the first.
+        """
         return tilt_of(self.start, self.length)
 
 
 def tilt_of(vector: Sequence[Real], length: Real) -> tuple[Real, Real, Real, Real]:
     """Return (cos, sin of half the polar angle, cos, sin of the azimuth) of a vector (x, y, z) of this ``length``.
 
-    Each is a rational or a ball. The azimuth runs from the second axis to the first; it is 0 for a vector along the
-    third axis.
+    Each is a rational or a ball. The azimuth runs from the second axis to the first: cos = y/h, sin = x/h, h the length
+    of (x, y). It is 0 for a vector along the third axis.
     """
     x, y, z = vector
     if x == 0 and y == 0:

@@ -27,7 +27,8 @@ CONSTANTS = (*NAMES[:4], "(M,B')")
 def standing(I2: Any, I3: Any, *state: Any) -> SingleGeneral:
     """Return the `SingleGeneral` of eight exact numbers: I2, I3, and the ``state`` at t = 0.
 
-    The state is K1, K2, K3 (1/time), omega1, omega2, omega3 (rad/time), along the body's axes.
+    The state is K1, K2, K3 (1/time), omega1, omega2, omega3 (rad/time), along the body's axes. Any state will do, also
+    at rest or without nutation. Raises DomainError for moments that no body has.
     """
     with workprec(FIRST_BITS):
         return SingleGeneral(Balls.at_state(Moments(I2, I3), state[3:], state[:3]))

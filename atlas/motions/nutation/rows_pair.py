@@ -27,9 +27,10 @@ NEGLIGIBLE = 2.0**-58
 
 
 class Zeros(NamedTuple):
-    """Zeros of alpha and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
+    """Zeros of alpha (row 0) and beta, at M s = i y or pi/2 + i y, s the time since Omega3 was `low`; (2, m).
 
-    `is_at_low` is true where the zero is at i y, `sense` the sign of y, `growth` is exp y. M = pi/T, T the period.
+    `is_at_low` is true where the zero is at i y, `sense` the sign of the real y, `growth` is exp y. M = pi/T, T the
+    period of Omega3.
     """
 
     is_at_low: Any
@@ -105,7 +106,7 @@ class SpherePair:
 
     @cached_property
     def zeros(self) -> Zeros:
-        """The `Zeros` of the theta sums of alpha and beta, arrays (2, m)."""
+        """Zeros of the theta sums of alpha (row 0) and beta: `is_at_low`, `sense`, `growth` of `Zeros`, (2, m)."""
         inside, k = self._starts[0].hi > self.means.N.hi, self.sphere
         # where the vector starts at a pole, that of beta belongs to `low` and that of alpha to `high`
         is_at_low = np.where(k.meets, [[False], [True]], [inside[0], ~inside[1]])
@@ -165,7 +166,7 @@ class SpherePair:
 
     @cached_property
     def change(self) -> Change:
-        """The `Change` of Omega3 from its initial value, for the sphere of the angular velocity."""
+        """Constants of Omega3 - omega3, `size` and `weights` of `Change`, for the sphere of the angular velocity."""
         r, square = self.means.roots, self.means.nome * self.means.nome
         weight, power = constant(1.0, square), constant(1.0, square)
         zero = constant(0.0, square)

@@ -38,7 +38,10 @@ class SingleElliptic(SingleMotion):
         return np.array([float(x.mid()) for x in rates])
 
     def accuracy(self, size: float) -> float:
-        """Return the bound on errors of entries of R, and of K and Omega relative to ``size``, a rate in rad/time."""
+        """Return the bound, at any time, on errors of entries of R, and of K and Omega over ``size``, in rad/time.
+
+        ``size`` is a rate of the motion, such as its largest component of field and angular velocity.
+        """
         return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:

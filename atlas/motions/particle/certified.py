@@ -70,7 +70,7 @@ class ParticleMotion:
     def position(self, t: Any) -> list[Real]:
         """Return y(t), (98) with the constants of the given start, three balls or rationals in the unit of length.
 
-        y = y0 + d t + p t^2/2 + (c - 1) r + s q with w = mu B/c, s = sin(|w| t)/|w| and c = cos(|w| t), see
+        y = y0 + d t + p t^2/2 + (c - 1) r + s q with s = sin(w t)/w and c = cos(w t), w the cyclotron frequency, see
         `_vectors`. The vectors are rational, so that a component that vanishes (a drift at the right speed, say) is
         exactly zero. Without a magnetic force the path is the parabola that (90) gives.
         """
@@ -84,8 +84,9 @@ class ParticleMotion:
     def velocity(self, t: Any) -> list[Real]:
         """Return v(t), the derivative of (98), three balls or rationals, in the unit of velocity.
 
-        v = v0 + p t - w^2 s r + (c - 1) q, in the letters of `position`. Since d + q = v0, a component that is 0 at
-        the start is exactly 0 there.
+        v = v0 + p t - w^2 s r + (c - 1) q with s = sin(w t)/w and c = cos(w t), w the cyclotron frequency, and the
+        vectors of `_vectors`. Since d + q = v0, a component that is 0 at the start is exactly 0 there. Without a
+        magnetic force v = v0 + mu E t.
         """
         t = rational(t, "the time")
         if not self._force:
@@ -111,7 +112,7 @@ class ParticleMotion:
         return tuple(particle.drift_velocity(*x)), p, tuple(particle.arm(*x)), q
 
     def _circle(self, t: fmpq) -> tuple[Real, Real]:
-        """Return the balls (sin(|w| t)/|w|, cos(|w| t)), w the cyclotron frequency in rad/time."""
+        """Return the balls (sin(w t)/w, cos(w t)), w the cyclotron frequency in rad/time."""
         w = self.cyclotron_frequency
         sine, cosine = sin_cos(w * t)
         return sine / w, cosine

@@ -154,7 +154,8 @@ class Charge:
     def centre(self) -> FloatArray:
         """Position, velocity and acceleration of the point O(t) of (99) at t = 0, as rows, (3, 3) or (3, 3, m).
 
-        Raises DomainError without a magnetic force.
+        The velocity is `drift` plus the particle's along B, the acceleration is the part of mu E along B. Raises
+        DomainError without a magnetic force.
         """
         self.needs_field("guiding centre")
         centre = self._over("centre", 6)

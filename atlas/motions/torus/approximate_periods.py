@@ -130,7 +130,8 @@ class Integrals:
 def real_periods(motion: Integrals) -> list[PeriodPair]:
     """Return two approximate real periods (T_H, T_F) of a motion, as short as can be, balls of radius 0.
 
-    ``motion`` are its `Integrals`. The list is shorter where integrals along paths do not generate two periods.
+    ``motion`` are its `Integrals`. The list is shorter where integrals along paths do not generate two periods. Raises
+    NotCertifiedError as `Curve` and its method `along` do.
     """
     with workprec(BITS):
         curve = Curve(motion)
@@ -252,7 +253,8 @@ class Curve:
 
         u = start + (stop - start)(1 - cos s)/2. As sin s/eta, eta^2 = Psi, is even and periodic in s, the rule of
         midpoints leaves out 2^-BITS with enough nodes. Where another zero, or the pole of z, is so near that this
-        takes more places, the rule is Gauss's on shorter parts: as many as the distance has digits.
+        takes more places, the rule is Gauss's on shorter parts: as many as the distance has digits. Raises
+        NotCertifiedError where zeros are too close.
         """
         intervals = list(self.intervals(start, stop))
         count = ceil(BITS * log(2) / (2 * _elliptic(*self._other_places(start, stop)).real.min()))
@@ -269,7 +271,8 @@ class Curve:
         """Return (T_H, T_F, T_c), -2i times the integrals of D, z and v du/eta along a path, as complex balls.
 
         eta^2 = Psi, see the module. ``start`` and ``stop`` are zeros u; the balls have radius 0. The sign, which
-        all three share, is arbitrary. Raises NotCertifiedError where the integrals lose all digits.
+        all three share, is arbitrary. Raises NotCertifiedError where the integrals lose all digits, or zeros are too
+        close.
         """
         displacement, g = stop - start, acb_poly(self.g)
         sum_D, sum_z, sum_v, before = acb(0), acb(0), acb(0), None

@@ -338,23 +338,23 @@ class AsymmetricMotion:
             self._motion.follow(times)
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) at one time t, taken exactly, as three rows of balls; at t = 0 the exact unit matrix."""
+        """Return R(t) at one time t, taken exactly, as three rows of balls; at t = 0 the unit matrix of rationals."""
         if rational(t, "the time") == 0:
             return identity()
         return self._motion.rotation(t)
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory at time t, as a list of three."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory, as `rotation` three balls."""
         return [row[j - 1] for row in self.rotation(t)]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B' along the body's axes, three balls in 1/time; exact at t = 0 and for a spin."""
+        """Return K(t) = R^T B' along the body's axes, three balls in 1/time; rationals at t = 0 and for a spin."""
         if rational(t, "the time") == 0 or isinstance(self._motion, EulerTop):
             return list(self.field)
         return self._motion.field_in_body(t)
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, three balls in rad/time; exact at t = 0."""
+        """Return Omega(t) along the body's axes, three balls in rad/time; at t = 0 the given rationals."""
         if rational(t, "the time") == 0:
             return list(self.omega)
         return self._motion.angular_velocity(t)
@@ -458,7 +458,10 @@ class AsymmetricMotion:
         return self.H - self.MK
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory at time t, three balls in inertia/time; exact without a field."""
+        """Return m = R II Omega in the laboratory at time t, three balls in inertia/time.
+
+        They are rationals at t = 0, and at all times without a field.
+        """
         Omega = self.angular_velocity(t) if any(self.field) else self.omega
         m = [I * w for I, w in zip(self.inertia, Omega, strict=True)]
         return applied(self.rotation(t), m) if any(self.field) else m

@@ -81,10 +81,12 @@ Place = tuple[int, int]
 def distances(theta: ThetaMotion, torus: Torus, periods: Sequence[Period]) -> Floats:
     """Return proven bounds (3,) on |M|, |K| and |N| of theta functions minus motion, at all phases of a cell.
 
-    ``periods`` are the two proven ones of ``torus``, and all is in its scaled units. The cell reaches from
-    -HALF_TURN to HALF_TURN turns of both phases, counted from the motion's state at t = 0. Where errors might grow
-    too much on the way from there, the way begins at the nearest of 4, 9 or 25 other states, to which Taylor's
-    series goes. Raises NotCertifiedError where there is no bound.
+    M = II (Omega + K) and K are along the body's axes, N = S^T (e_x + i e_y) with the rotation S of `Arrival` and unit
+    vectors e_x, e_y across the field; |.| is the Euclidean length. ``periods`` are the two proven ones of ``torus``,
+    and all is in its scaled units. The cell reaches from -HALF_TURN to HALF_TURN turns of both phases, counted from
+    the motion's state at t = 0. Errors grow along a straight path from that state. If they grow too much, the cell is
+    divided into 4, 9 or 25 parts, and the paths start from their centres, which Taylor's series reaches. Raises
+    NotCertifiedError where there is no bound.
     """
     _check_characteristics(theta)
     with workprec(BITS + SPARE_BITS), np.errstate(over="ignore", invalid="ignore", divide="ignore"):

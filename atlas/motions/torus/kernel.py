@@ -321,7 +321,7 @@ class AsymmetricMotion(Motion[SingleAsymmetric]):
 
     @frozen_property
     def kind(self) -> NameOrArray:
-        """Type of the motion, see the Notes of the class: a string, or an array of strings."""
+        """Type of the motion, "on a torus" or another of the class's Notes: a string, or an array of strings."""
         return self._of_each(lambda single: single.exact.kind)
 
     @frozen_property
