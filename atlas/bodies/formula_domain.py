@@ -1,5 +1,7 @@
 """Where the formulas hold, and the sentence that says where they do not: of exact numbers, floats and arrays of them.
 
+A check of arrays raises if it fails for any element.
+
 >>> from atlas.bodies.formula_domain import case_of
 >>> case_of(1.0, 1.5, 1.0, 2.0, 0.7)
 'precession'
@@ -112,7 +114,7 @@ def check_omega3(case: str, omega3: Number | None, curve: Number) -> None:
 
 
 def check_curve(B2: Number, omega2: Number) -> None:
-    """Raise DomainError where (71) has no omega3: for B2 = 0, and at the pole omega2 = -B2; numbers or arrays."""
+    """Raise DomainError where (71) has no omega3: for B2 = 0, and at the pole omega2 = -B2; anywhere in arrays."""
     refuse(B2 == 0, "With B2 = 0 the curve (67) is the line omega2 = 0, and omega3 is free on it.")
     refuse(omega2 == -B2, "omega2 = -B2 = {} is the pole of omega3(omega2), (71).", omega2)
 
@@ -123,7 +125,7 @@ def check_asymptotes(B2: Number, B3: Number) -> None:
 
 
 def check_beta(B2: Number, B3: Number) -> None:
-    """Raise DomainError where I^-1 B' has no direction: for B2 = B3 = 0; numbers or arrays."""
+    """Raise DomainError where I^-1 B' has no direction: for B2 = B3 = 0; anywhere in arrays."""
     refuse((B2 == 0) & (B3 == 0), "With B = 0 there is no angle beta: I^-1 B' has no direction.")
 
 
