@@ -294,7 +294,7 @@ class SymmetricBody(CarriesUncertainty):
         DomainError
             For a mass or dimension out of its domain.
         AtlasError
-            For an input that is no number.
+            For an input that is no number or missing, and for a mass beside a density.
         """
         return _shaped(cls, "solid_cylinder", {"mass": mass, "radius": radius, "height": height}, density)
 
@@ -352,7 +352,7 @@ class SymmetricBody(CarriesUncertainty):
         DomainError
             For a mass or dimension out of its domain.
         AtlasError
-            For an input that is no number.
+            For an input that is no number or missing, and for a mass beside a density.
         """
         return _shaped(cls, "sphere", {"mass": mass, "radius": radius}, density)
 
@@ -413,7 +413,7 @@ class SymmetricBody(CarriesUncertainty):
         DomainError
             For a mass or dimension out of its domain.
         AtlasError
-            For an input that is no number.
+            For an input that is no number or missing, and for a mass beside a density.
         """
         return _shaped(cls, "spheroid", {"mass": mass, "equatorial": equatorial, "polar": polar}, density)
 
