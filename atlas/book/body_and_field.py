@@ -186,10 +186,11 @@ def dimensions(record: Body) -> dict[str, float]:
 
 
 def chosen(block: Any, records: BodiesAndFields) -> tuple[BodyAndField, ...]:
-    """Return a `BodyAndField` for each body that a block names by `body` or `bodies`, all in the block's `field`.
+    """Return a `BodyAndField` for each body that a block names by `bodies`, else `body`, all in the block's `field`.
 
-    If the block names no body, there is one item without a body; without a field its `field` is None. Raises AtlasError
-    for records that make no body or field.
+    These are attributes of the block. If it names no body, there is one item without a body; without a field its
+    `field` is None. Raises AtlasError for records that make no body or field, KeyError for a name that is not among
+    the records, which is found on loading.
     """
     field = records.fields[block.field] if block.field else None
     bodies = block.bodies or ((block.body,) if block.body else (None,))

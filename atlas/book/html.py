@@ -231,7 +231,10 @@ def _equations(document: Document, texts: Sequence[str]) -> dict[str, str]:
 
 
 def _words(html: str) -> str:
-    """Return the plain words of a piece of HTML as one line of text, formulas as `linear` writes them."""
+    """Return the plain words of a piece of HTML as one line of text, formulas as `linear` writes them.
+
+    Links of class "anchor" are left out, and spaces around signs of a relation.
+    """
     html = re.sub(r'<a class="anchor".*?</a>', " ", html, flags=re.DOTALL)
     html = re.sub(r"<math.*?</math>", lambda matched: escaped(linear(matched[0])), html, flags=re.DOTALL)
     return _joined(" ".join(unescape(_MARKUP.sub(" ", _INLINE.sub("", html))).split()))
@@ -239,12 +242,15 @@ def _words(html: str) -> str:
 
 @lru_cache(maxsize=4096)
 def linear(mathml: str) -> str:
-    """Return a formula in MathML as a line of plain letters: ω'2 for an index, x^2 for a power, 3/2 for a fraction."""
+    """Return a formula in MathML as a line of plain letters: ω'2 for an index, (x^2)/2 for a power and a fraction."""
     return _joined("".join(_line(ET.fromstring(mathml)).split()))  # noqa: S314  what pandoc has written
 
 
 def _line(node: ET.Element) -> str:
-    """Return a node of MathML as plain text: "(a+b)/2" for a fraction, "x^2" for a power, "sqrt(x)" for a root."""
+    """Return a node of MathML as plain text: "(a+b)/2" for a fraction, "x^2" for a power, "sqrt(x)" for a root.
+
+    Numerators and denominators of other signs than letters and digits are put in brackets.
+    """
     tag = node.tag.rpartition("}")[2]
     if tag in {"annotation", "annotation-xml", "mspace"}:
         return ""

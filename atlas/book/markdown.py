@@ -144,9 +144,10 @@ def read(text: str) -> tuple[dict[str, Any], dict[tuple[int, ...], Piece]]:
 
 
 def _block(piece: Piece) -> dict[str, Any]:
-    """Return the values of a block by key, from its TOML, and of a kind with text also from the text below.
+    """Return the values of a block by key: "kind", those of its TOML, and of a kind with text "text", the text below.
 
-    Raises LineError for an unknown kind, for wrong TOML, and for a key that the file says outside of the TOML.
+    Raises LineError for an unknown kind, for wrong TOML or one without end, and for "kind", or "text" of a kind with
+    text, in the TOML.
     """
     kind, lines = piece.kind or "prose", piece.lines
     if piece.kind and piece.kind not in FENCED:

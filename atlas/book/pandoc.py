@@ -99,7 +99,8 @@ def api() -> list[int]:
 def run(arguments: Sequence[str], source: str) -> str:
     """Return pandoc's standard output for the text `source`; `arguments` are options of its command.
 
-    Raises FormulaError for an unreadable formula, and AtlasError for any other warning and for too much time or memory.
+    Raises FormulaError for an unreadable formula, and AtlasError for any other warning, where pandoc fails or is
+    missing, and for too much time or memory.
     """
     with TemporaryDirectory() as folder:
         log = Path(folder) / "log.json"

@@ -83,15 +83,18 @@ class Term:
         return self._named(f"Math.abs({self})")
 
     def sqrt(self) -> "Term":
-        """Return the square root as a new term."""
+        """Append the square root to the script as an assignment, and return its term."""
         return self._named(f"Math.sqrt({self})")
 
     def scaled(self, power: int) -> "Term":
-        """Return the product with 2**power as a new term."""
+        """Append the product with 2**power to the script as an assignment, and return its term."""
         return self._named(f"{self} * {2**power}")
 
     def select(self, positive: Any, alternative: Any) -> "Term":
-        """Return a new term: `positive` where this term is above zero when the script runs, else `alternative`."""
+        """Append the choice of `positive` if this term is above zero when the script runs, else `alternative`.
+
+        Both are terms or numbers; returns the term of the choice.
+        """
         return self._named(f"{self} > 0 ? {positive} : {alternative}")
 
 

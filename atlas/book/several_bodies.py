@@ -147,7 +147,8 @@ def against(first: ReportRequest, second: ReportRequest) -> tuple[str, dict[str,
 def _rows(first: Card, second: Card) -> Iterator[list[str]]:
     """Yield seven texts for each number of one of two cards: words, letter, both values, difference, unit, equation.
 
-    `first` and `second` are the cards, records by key.
+    All are Markdown, in the order of the cards. An en dash stands for a value that one card lacks, and for its
+    difference, by `difference`; the equation is "@(72)" or "". `first` and `second` are records by key, of equal keys.
     """
     for key, a in first.items():
         b = second[key]

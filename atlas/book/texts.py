@@ -291,10 +291,11 @@ class _Checked:
         return works == {True}
 
     def cited(self, work: Any, link: Link, bracketed: bool) -> Tree:
-        r"""Return the nodes of one citation's link; the first citation of a name in `anchors` gets its id.
+        r"""Return the nodes of one citation's link; the first one of a name in `anchors` gets its id, except in LaTeX.
 
-        `work` is pandoc's citation, a dict; `bracketed` says that it stands in brackets. For LaTeX figures and
-        tables become \ref, and table cells \atlascell.
+        `work` is pandoc's citation, a dict; `bracketed` says that it stands in brackets: then a work is shown by the
+        link's `bracketed`, anything else by `words`. In LaTeX the names "fig:..." and "tab:..." become
+        Figure~\ref{anchor} and Table~\ref{anchor}, "cell:KEY" becomes \atlascell{KEY}{words}, others are words.
         """
         name = work["citationId"]
         words = self.tree(_words(link.bracketed if bracketed and link.bracketed else link.words))

@@ -56,12 +56,12 @@ Maker: TypeAlias = Callable[..., Data]
 
 
 def bits(digits: int) -> int:
-    """Return a binary precision, a number of bits, far beyond `digits` decimal digits."""
+    """Return a working precision for `digits` decimal digits: 3.33 bits a digit, rounded down, and 80 more."""
     return int(3.33 * digits) + 80
 
 
 def certified(make: Callable[[], Any], digits: int) -> Any:
-    """Return the result of `make`, balls in any nesting, with radii far below `digits` digits.
+    """Return the result of `make`, balls in any nesting, with radii far below `digits` decimal digits, by `bits`.
 
     `make` is called with rising precision, see `atlas.arithmetic.certified_digits`.
     """
