@@ -40,11 +40,12 @@ def scene(
     turns: float = 1.5,
     unit: str = "time",
 ) -> Scene:
-    """Draw Omega3(t) from the points of the quadric with this omega2 and each of ``omega1``, for ``turns`` periods.
+    """Draw the departure of Omega3 from its start: over time for each of ``omega1``, and its largest over |omega1|.
 
-    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time as the angular velocities; ``unit`` is the word for
-    the unit of time. Raises DomainError for an omega1 of zero, for B2 = 0 and omega2 = -B2, and where Omega3 has no
-    period.
+    The starts are points of the quadric with this omega2; the first panel has ``turns`` periods of the slowest motion.
+    ``ratio`` is I3/I2; ``field`` is (B2, B3) of B', in 1/time as the angular velocities; ``unit`` is the word for the
+    unit of time. Raises DomainError for an omega1 of zero, too many or none, for B2 = 0 and omega2 = -B2, and where
+    Omega3 has no period or hardly departs.
     """
     if not 0 < len(omega1) <= len(LINES) or not all(omega1):
         raise DomainError(f"omega1 must hold one to {len(LINES)} numbers, none of them zero, not {omega1}.")

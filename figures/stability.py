@@ -40,8 +40,8 @@ def scene(
     """Draw nu^2 over omega2, and its ``levels`` in units of B2^2 in the plane of tau and x, for all fields.
 
     nu is the frequency of nutation, tau = |B3/B2| and x = (omega2 + B2)/B2. ``ratio`` is I3/I2; ``field`` is (B2,
-    B3) of B', in 1/time; ``reach`` is the half width of the first panel in units of B2; ``unit`` is the word for
-    the unit of time. Raises DomainError for B2 = 0.
+    B3) of B', in 1/time; ``reach`` is the half width of the first panel, about the pole omega2 = -B2, in units
+    of |B2|; ``unit`` is the word for the unit of time. Raises DomainError for B2 = 0.
     """
     B2, B3 = components(field)
     if B2 == 0:

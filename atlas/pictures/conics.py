@@ -81,7 +81,7 @@ def _spans(
 def _arcs(l1: float, l2: float, m1: float, m2: float, c: float, r: float) -> list[_Arc]:
     """Return the arcs of l1 x^2 + l2 y^2 + 2 m1 x + 2 m2 y + c = 0, |l1| >= |l2|, out to about r from the origin.
 
-    An arc is (function of s (N,) with values (x, y), first s, last s); a point or nothing gives [].
+    An arc is (function of s (N,) that returns two arrays x, y (N,), first s, last s); a point or nothing gives [].
     """
     size = max(abs(l1) * r * r, abs(m1) * r, abs(m2) * r, abs(c))
     if abs(l1) * r * r <= _FLAT * size:
