@@ -54,7 +54,7 @@ def given_otherwise(options: Mapping[str, Any]) -> bool:
 def top_units(options: Mapping[str, Any]) -> dict[str, str]:
     """Return {"time": "s", "1/time": "1/s", ...} for a top by --heavy or --magnetic, else `units_of(options)`.
 
-    `options` are the command's, by name.
+    The keys are the units with a time in them, those of `SECONDS`. `options` are the command's, by name.
     """
     return SECONDS if given_otherwise(options) else units_of(options)
 

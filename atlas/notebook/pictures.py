@@ -50,7 +50,10 @@ def plot(
 
 
 def animate(motion: Any, times: Any, fps: float, style: Any) -> Any:
-    """Return the Matplotlib animation of a motion at `times`, `fps` frames a second, see `Motion.animate`."""
+    """Return the `FuncAnimation` of a motion at `times` (N,), None for whole periods, `fps` frames a second.
+
+    `style` is as for `atlas.figure`. Raises AtlasError for an array of motions, see `Motion.animate`.
+    """
     from atlas.pictures.drawing.animation import of_motion
 
     return of_motion(motion, times, fps=fps, style=style)

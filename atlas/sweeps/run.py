@@ -283,9 +283,10 @@ def width(executor: Any, jobs: int | None) -> int:
 def _parts_in_order(plan: Plan, spans: Spans, table: Table, executor: Any, workers: int) -> Generator[Made]:
     """Yield the results of `make` for each range of `spans`, in order; on an executor some parts are computed ahead.
 
-    `executor` is an executor, a Dask client, or None: then this process makes the parts until the remaining work is
-    worth several processes, if the system allows these. `workers` is the number of parts at a time. When the
-    generator ends or is closed no part is in progress. Raises AtlasError if workers end.
+    `make` writes each part to the folder of `table`, or returns its bytes. `executor` is an executor, a Dask client, or
+    None: then this process makes the parts until the remaining work is worth several processes, by `spans.processes`,
+    if the system allows these. `workers` is the number of parts at a time. When the generator ends or is closed no part
+    is in progress. Raises AtlasError if a process or the scheduler comes to an end, and errors of `make`.
     """
     processes = None
     if executor is None:
