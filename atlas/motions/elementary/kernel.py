@@ -142,7 +142,7 @@ class ElementaryMotion(DoubleTurn[Elementary]):
 
     @frozen_property
     def case(self) -> NameOrArray:
-        """Name of the formula that applies, see the Notes of the class: a string, or an array of strings."""
+        """Name of the formula, "precession" or another of the class's Notes: a string, or an array of strings."""
         return np.array(CASES)[self._codes] if self.shape else self._single().case
 
     @property
@@ -369,8 +369,8 @@ class ElementaryMotion(DoubleTurn[Elementary]):
         Returns
         -------
         dict of str to float or ndarray
-            The five constants by name. From the inputs each is rounded once; at times each is within a few ulp of its
-            largest term.
+            The five constants by name: "c3" in 1/time, "E'", "K^2", "c5" and "(m,B')" in 1/time^2. From the inputs each
+            is rounded once; at times each is within a few ulp of its largest term.
 
         Raises
         ------
