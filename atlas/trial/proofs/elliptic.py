@@ -66,7 +66,7 @@ def integrals_model() -> Model:
 def multipliers_model() -> Model:
     """Return the model of theorem-critical: any M, K with H, F, and the multipliers z, v, w of the critical points.
 
-    w multiplies K^2/2; y_i = D I_i - z D/I_i + w are the coefficients of K_i.
+    H is `energy`, F is `clebsch`; w multiplies K^2/2; y_i = D I_i - z D/I_i + w are the coefficients of K_i.
     """
     w = sympy.Symbol("w", real=True)
     y = {n: D * moment - z * D / moment + w for n, moment in enumerate(MOMENTS, 1)}
@@ -75,9 +75,10 @@ def multipliers_model() -> Model:
 
 
 def root_model(*, elliptic: bool = False) -> Model:
-    """Return the model of v = sqrt(P) with H, F and c = (M, K) at any M, or at M = -v X^-1 K, the elliptic motion's.
+    """Return the model of v = sqrt(P) with H, F and c, the scalar product of M and K, at any M, without rates.
 
-    The latter if ``elliptic``. P = x_1 x_2 x_3 with x_i = z + D/I_i.
+    If ``elliptic``, M is that of the elliptic motion, -v X^-1 K. P = x_1 x_2 x_3 with x_i = z + D/I_i, the diagonal of
+    X, D = I1 I2 I3; H is `energy` and F is `clebsch`.
     """
     momentum = LETTERS["elliptic"] if elliptic else M
     letters = {"H": energy(momentum), "F": clebsch(momentum), "c": dot(momentum, K)}
@@ -98,7 +99,8 @@ def edge_model() -> list[Model]:
 def critical_model() -> Model:
     """Return the model of theorem-bifurcation: F and 2 D H on elliptic motions as functions of z, at any b and c.
 
-    The time of the model is z, with v' = P'/2v, so that `d` of a line is the derivative by z.
+    b is the length of K, c the scalar product of M and K, P is v^2. The time of the model is z, with v' = P'/2v, so
+    that `d` of a line is the derivative by z.
     """
     b, c = sympy.symbols("b c", real=True)
     letters = {name: LETTERS[name] for name in ("z", "v", "D", "e2", "P1", "P2")} | {"b": b, "c": c, "P": v**2}

@@ -86,7 +86,8 @@ def launch_model() -> Model:
 def field_model() -> Model:
     """Return the model of a symmetric body with K = mu/(2c) R^T B, for (34) and (35).
 
-    IdOmega is I dOmega/dt by (16), dK the rate of K by (12), Bp the field B' = mu B/(2c).
+    IdOmega is I dOmega/dt by (16), dK the rate of K by (12), Bf the field B, Bp is B' = mu B/(2c). The model itself has
+    no rates.
     """
     (R, bindings), B = rotation_symbols(), vector("B")
     mu, c = general.mu, general.c
@@ -112,7 +113,10 @@ def field_model() -> Model:
 
 
 def frame_model() -> Model:
-    """Return the model of (31), (32): K = R^T B' with B' = (0, B2, B3), B = (2c/mu) B', Omega = R^T omega; R(0) = 1."""
+    """Return the model of (31), (32): K = R^T B' with B' = (0, B2, B3), B = (2c/mu) B', Omega = R^T omega; R(0) = 1.
+
+    R is any rotation and has no rate; `Bf` is B, `Bp` is B', `omega` the angular velocity in the laboratory.
+    """
     mu, c = general.mu, general.c
     field = sympy.Matrix([0, 2 * c * B2 / mu, 2 * c * B3 / mu])
     (R, bindings), w = rotation_symbols(), vector("w")

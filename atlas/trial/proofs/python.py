@@ -114,12 +114,15 @@ class Line:
         return points(parameters(self.relations, self.model, every), self.model)
 
     def symbols_reached(self) -> set[Value]:
-        """Return the set of symbols on which the code so far depends, directly or through `bindings` and rates."""
+        """Return the set of symbols on which the code so far depends, directly or through `bindings` and rates.
+
+        The code so far is all that the methods have written. Its own symbols, in `symbols` and `used`, are in the set.
+        """
         values = [*self.symbols, *(v for v in self.used.values() if isinstance(v, sympy.Symbol))]
         return reached(values, [*self.model.bindings, *self.model.flow.items()])
 
     def assumptions(self) -> dict[str, str]:
-        """Return by identifier the assumptions of the code's symbols, as text of arguments: ", positive=True", or "".
+        """Return by identifier the assumptions of the symbols in the code so far, as ", positive=True", or "".
 
         Adds the symbols of `used` letters to `symbols`.
         """
