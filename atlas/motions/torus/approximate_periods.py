@@ -131,7 +131,7 @@ def real_periods(motion: Integrals) -> list[PeriodPair]:
     """Return two approximate real periods (T_H, T_F) of a motion, as short as can be, balls of radius 0.
 
     ``motion`` are its `Integrals`. The list is shorter where integrals along paths do not generate two periods. Raises
-    NotCertifiedError as `Curve` and its method `along` do.
+    NotCertifiedError as `Curve` and its method `integrals` do.
     """
     with workprec(BITS):
         curve = Curve(motion)
