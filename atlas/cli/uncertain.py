@@ -80,7 +80,7 @@ def without_deviation(value: Any) -> Any:
 
 def _typed_numbers(value: Any) -> tuple[Any, ...]:
     """Return the typed numbers of an option as a tuple; of a field at an angle its strength and angle."""
-    return getattr(value, "parts", parts_of(value))
+    return getattr(value, "strength_and_angle", parts_of(value))
 
 
 def _moved_options(options: dict[str, Any], inputs: list[tuple[str, int, Typed]], steps: Any) -> dict[str, Any]:

@@ -17,7 +17,7 @@ def polynomial(random: Random, degree: int) -> Polynomial:
     for n in range(degree + 1):
         b = fmpq(random.randint(-9, 9), random.randint(1, 7)) if Surd.root(N).b != 0 else fmpq(0)
         x = Surd(fmpq(random.randint(-20, 20), random.randint(1, 9)), b, N)
-        coefficients.append(x if random.random() < 0.7 or n in {0, degree} else x.of(0))
+        coefficients.append(x if random.random() < 0.7 or n in {0, degree} else x.lift(0))
     return trimmed(coefficients)
 
 
