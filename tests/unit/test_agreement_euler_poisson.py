@@ -62,11 +62,6 @@ def acceleration_in_field(say: Ledger, p: Any) -> Any:
     return equations["I"].inv() * say("(16)", "IdOmega", mu=2, light=1, R=p.R, Bf=p.B, Omega=p.Omega, **equations)
 
 
-def inverse(matrix: Any) -> Any:
-    """Return the inverse of an exact matrix."""
-    return matrix.inv()
-
-
 def tensor(p: Any) -> Any:
     """Return the inertia tensor of a symmetric body over I2, in floats."""
     return np.diag([float(p.I2), float(p.I2), float(p.I3)])
@@ -80,19 +75,6 @@ def symmetric(p: Any, sides: str) -> dict[str, Any]:
 
 
 STATE = "Omega1 Omega2 Omega3 K1 K2 K3"
-
-
-def conserved_along(say: Ledger, p: Any) -> Any:
-    """Return (K, I (Omega + K)) by c5 of (41), (40) and (37): I2 [c5 + K^2 - (1 - I) c3^2]."""
-    c3 = say("(40)", "c3", **symmetric(p, STATE))
-    c5 = say("(41)", "c5", c3=c3, I=p.I, **symmetric(p, STATE))
-    return p.I2 * (c5 + say("(37)", "0", d=lambda x: x, K=p.K) - (1 - p.I) * c3**2)
-
-
-def energy(say: Ledger, p: Any) -> Any:
-    """Return E of which (33) makes E' = 2E/I2, (36)."""
-    double = say("(33)", "E", energy=1, I2=p.I2)
-    return say("(36)", "E", **symmetric(p, "Omega1 Omega2 Omega3 I")) / double
 
 
 def mass_elements(say: Ledger, moments: Any) -> list[Any]:
@@ -128,13 +110,6 @@ EQUATIONS = (
         lambda f, p: f.euler_poisson.bracket(p.K, p.Omega),
         lambda say, p: say("(74)", "dgamma", gamma=p.K, Omega=p.Omega),
         size=lambda _true, p: norm(p.K) * norm(p.Omega),
-    ),
-    in_core(
-        "euler_poisson.rotation_rate",
-        "(12)",
-        lambda f, p: f.euler_poisson.rotation_rate(p.R, p.Omega),
-        lambda say, p: say("(12)", "d(R[i,j])", R=p.R, Omega=p.Omega),
-        size=lambda _true, p: norm(p.R) * norm(p.Omega),
     ),
     in_core(
         "euler_poisson.field_in_body",
@@ -180,40 +155,6 @@ EQUATIONS = (
         lambda say, p: [say("(38)", f"d(Omega{n})", I=p.I, **symmetric(p, STATE)) for n in (1, 2, 3)],
         size=lambda true, p: power(2)(true, p) * max(1, 1 / float(p.I)),
         ulps=8,
-    ),
-    in_core(
-        "euler_poisson.body_momentum_rate",
-        "(18) text-inertia-tensor",
-        lambda f, p: f.euler_poisson.body_momentum_rate(p.inertia, f.euler_poisson.field_in_body(p.R, p.B), p.M),
-        lambda say, p: say("(18)", "dM", mu=2, light=1, M=p.M, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
-        size=lambda _true, p: (
-            (norm(p.M) + norm(p.inertia) * norm(p.R) * norm(p.B))
-            * norm(np.linalg.inv(p.inertia))
-            * norm(p.M)
-            * np.linalg.cond(p.inertia)
-        ),
-        ulps=8,
-    ),
-    in_core(
-        "euler_poisson.momentum_rate",
-        "(17) text-inertia-tensor",
-        lambda f, p: f.euler_poisson.momentum_rate(p.inertia, p.B, p.R, p.m),
-        lambda say, p: say("(17)", "dm", mu=2, light=1, m=p.m, R=p.R, Bf=p.B, inv=inverse, **body(say, p)),
-        size=lambda _true, p: norm(p.R) ** 4 * norm(p.B) * norm(p.m) * np.linalg.cond(p.inertia),
-        ulps=16,
-    ),
-    of_symmetric(
-        "euler_poisson.energy",
-        "(33) (36)",
-        lambda f, p: f.euler_poisson.energy(tensor(p), p.omega),
-        energy,
-    ),
-    of_symmetric(
-        "euler_poisson.momentum_along_field",
-        "(37) (40) (41)",
-        lambda f, p: f.euler_poisson.momentum_along_field(tensor(p), p.K, p.omega),
-        conserved_along,
-        size=lambda true, p: power(2)(true, p) * float(p.I2) * 4,
     ),
 )
 

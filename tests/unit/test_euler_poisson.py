@@ -67,21 +67,20 @@ class Cloud:
 
 
 @given(seeds)
-def test_mass_matrix_and_energy_agree_with_the_points(seed: int) -> None:
-    """The mass matrix g of (8) is (tr I/2) 1 - I, and (Omega, I Omega)/2 is the points' kinetic energy."""
+def test_the_mass_matrix_agrees_with_the_points(seed: int) -> None:
+    """The mass matrix g of (8) is (tr I/2) 1 - I."""
     c = Cloud.random(seed)
     assert np.abs(mass_matrix(c.inertia) - mass_matrix_of_points(c.masses, c.start)).max() < c.tolerance
-    assert abs(equations.energy(c.inertia, c.Omega) - c.masses @ (c.v**2).sum(axis=1) / 2) < c.tolerance
 
 
 @given(seeds)
 def test_the_torque_agrees_with_the_lorentz_forces(seed: int) -> None:
-    """The right-hand side of (17) is the sum of [x_N, f_N], since the constraints' forces have no torque."""
+    """(16) makes dm/dt = R (I Omega' + [Omega, I Omega]) the sum of [x_N, f_N]: constraints have no torque."""
     c = Cloud.random(seed)
     m = (c.masses[:, None] * np.cross(c.x, c.v)).sum(axis=0)
     assert np.abs(m - c.R @ c.inertia @ c.Omega).max() < c.tolerance
-    torque = np.cross(c.x, c.force).sum(axis=0)
-    assert np.abs(equations.momentum_rate(c.inertia, c.B, c.R, m) - torque).max() < c.tolerance
+    rate = c.inertia @ equations.angular_acceleration(c.inertia, c.K, c.Omega) + np.cross(c.Omega, c.inertia @ c.Omega)
+    assert np.abs(c.R @ rate - np.cross(c.x, c.force).sum(axis=0)).max() < c.tolerance
 
 
 @given(seeds)
@@ -89,10 +88,9 @@ def test_the_accelerations_need_only_symmetric_multipliers(seed: int) -> None:
     """With (16), the lambda of (6) = -R^T (R'' + A) g comes out symmetric, which is all that the constraints ask."""
     c = Cloud.random(seed)
     g = mass_matrix(c.inertia)
-    R1 = equations.rotation_rate(c.R, c.Omega)
-    R2 = equations.rotation_rate(R1, c.Omega) + equations.rotation_rate(
-        c.R, equations.angular_acceleration(c.inertia, c.K, c.Omega)
-    )
+    R1 = c.R @ equations.hat(c.Omega)
+    acceleration = equations.angular_acceleration(c.inertia, c.K, c.Omega)
+    R2 = R1 @ equations.hat(c.Omega) + c.R @ equations.hat(acceleration)
     A = 2 * np.cross(c.B, R1, axisb=0, axisc=0)  # (7)
     multipliers = -c.R.T @ (R2 + A) @ g
     assert np.abs(multipliers - multipliers.T).max() < c.tolerance
@@ -107,32 +105,14 @@ def test_every_body_conserves_energy_field_and_momentum_along_the_field(seed: in
     assert abs(Omega @ I @ dOmega) < 10 * c.tolerance
     assert abs(K @ dK) < c.tolerance
     assert abs(dK @ I @ (Omega + K) + K @ I @ (dOmega + dK)) < 10 * c.tolerance
-    laboratory = c.B @ (c.R @ I @ Omega + c.R @ I @ c.R.T @ c.B)
-    assert abs(equations.momentum_along_field(I, K, Omega) - laboratory) < 10 * c.tolerance
 
 
 def test_arrays_broadcast() -> None:
     """Many states of many bodies at once have the values of each alone."""
     clouds = [Cloud.random(seed) for seed in range(4)]
-    I, R, K, Omega, B = (np.array([getattr(c, name) for c in clouds]) for name in ("inertia", "R", "K", "Omega", "B"))
-    m = np.einsum("nij,njk,nk->ni", R, I, Omega)
-    together = (
-        equations.angular_acceleration(I, K, Omega),
-        equations.body_momentum_rate(I, K, Omega),
-        equations.momentum_rate(I, B, R, m),
-        equations.rotation_rate(R, Omega),
-        equations.energy(I, Omega),
-        equations.momentum_along_field(I, K, Omega),
-    )
-    for n in range(4):
-        matrices_alone = (
-            equations.angular_acceleration(I[n], K[n], Omega[n]),
-            equations.body_momentum_rate(I[n], K[n], Omega[n]),
-            equations.momentum_rate(I[n], B[n], R[n], m[n]),
-            equations.rotation_rate(R[n], Omega[n]),
-            equations.energy(I[n], Omega[n]),
-            equations.momentum_along_field(I[n], K[n], Omega[n]),
-        )
-        for many, matrix_alone in zip(together, matrices_alone, strict=True):
-            assert np.abs(many[n] - matrix_alone).max() < clouds[n].tolerance
+    I, K, Omega = (np.array([getattr(c, name) for c in clouds]) for name in ("inertia", "K", "Omega"))
+    together = equations.angular_acceleration(I, K, Omega)
+    for n, cloud in enumerate(clouds):
+        alone = equations.angular_acceleration(I[n], K[n], Omega[n])
+        assert np.abs(together[n] - alone).max() < cloud.tolerance
     assert equations.angular_acceleration(I[0], K[0], Omega).shape == (4, 3)
