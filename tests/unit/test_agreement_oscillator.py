@@ -93,13 +93,6 @@ TIES = (
         ulps=16,
     ),
     of_oscillator(
-        "PseudoOscillator.quartic_coefficients",
-        f"{INTEGRALS} theorem-quartic",
-        lambda say, p: powers(quartic(say, p, sympy.Symbol("u"), at_start(say, p)), sympy.Symbol("u")),
-        size=power(4),
-        ulps=16,
-    ),
-    of_oscillator(
         "PseudoOscillator.acceleration",
         f"{INTEGRALS} (47) (48)",
         lambda say, p: acceleration(say, p, p.u),

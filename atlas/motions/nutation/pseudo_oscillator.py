@@ -1,6 +1,5 @@
 """The cubic pseudo-oscillator that Omega3 obeys, (46) to (49), and its first integral, a quartic."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,7 +7,7 @@ import numpy as np
 from atlas.arithmetic.inputs import FloatArray, common_shape, finite, frozen_property, plain, real, vectors
 from atlas.arithmetic.lazy import cached_property
 from atlas.bodies.body import kept_ratio, moments
-from atlas.bodies.formula_integrals import cubic, quartic
+from atlas.bodies.formula_integrals import cubic
 from atlas.bodies.integrals import Integrals, integrals, shape_factors
 from atlas.errors import AtlasError
 
@@ -43,22 +42,10 @@ class PseudoOscillator:
 
         a_n is in 1/time^(3 - n). Raises DomainError if one is too large for a float.
         """
-        return self._of_integrals(cubic, "A coefficient of the cubic (47)")
-
-    @frozen_property
-    def quartic_coefficients(self) -> tuple[Any, ...]:
-        """Coefficients (q0, ..., q4) of the first integral Q(u) = (du/dt)^2, the constant first: floats, or arrays.
-
-        q_n is in 1/time^(4 - n). Raises DomainError if one is too large for a float.
-        """
-        return self._of_integrals(quartic, "A coefficient of the quartic")
-
-    def _of_integrals(self, formula: Callable[..., tuple[Any, ...]], name: str) -> tuple[Any, ...]:
         I, *factors = shape_factors(self.ratio)
         with np.errstate(over="ignore", invalid="ignore"):
-            values = formula(I, *vars(self.integrals).values(), factors)
-        finite(values, name)
-        return values
+            values = cubic(I, *vars(self.integrals).values(), factors)
+        return finite(values, "A coefficient of the cubic (47)")
 
     def acceleration(self, u: Any) -> Any:
         """Return p(u) of (49), the acceleration of Omega3 = u, in 1/time^3: a float, or an array that u broadcasts to.
