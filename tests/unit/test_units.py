@@ -24,19 +24,17 @@ def codata(name: str) -> float:
 
 
 def test_the_constants_agree_with_codata() -> None:
-    """The speed of light, e and Boltzmann's are exact, the masses and vacuum's constants those of CODATA 2022."""
+    """The speed of light, e and Boltzmann's are exact, the vacuum's constants those of CODATA 2022."""
     assert codata("speed of light in vacuum") == units.SPEED_OF_LIGHT
     assert codata("elementary charge") == units.ELEMENTARY_CHARGE
     assert codata("Boltzmann constant") == units.BOLTZMANN
     assert abs(codata("vacuum electric permittivity") / units.ELECTRIC_CONSTANT - 1) < 1e-9
     assert abs(codata("vacuum mag. permeability") / units.MAGNETIC_CONSTANT - 1) < 1e-9
-    assert abs(codata("electron mass") / units.ELECTRON_MASS - 1) < 1e-9
-    assert abs(codata("proton mass") / units.PROTON_MASS - 1) < 1e-9
 
 
 def test_larmor_frequency_of_an_electron_in_one_tesla() -> None:
     """It is the Bohr magneton in Hz/T, 13.996 GHz, and turns about -B: mu is negative."""
-    mu = units.charge_to_mass(-units.ELEMENTARY_CHARGE, units.ELECTRON_MASS)
+    mu = units.charge_to_mass(-units.ELEMENTARY_CHARGE, codata("electron mass"))
     prime = units.larmor_field(mu, 1.0)
     assert isinstance(prime, float)
     assert abs(-prime / (2 * np.pi) / codata("Bohr magneton in Hz/T") - 1) < 1e-9
@@ -47,7 +45,7 @@ def test_larmor_frequency_of_an_electron_in_one_tesla() -> None:
 def test_the_same_motion_in_both_systems() -> None:
     """A proton in E and B moves alike, metre for 100 cm, whether its data are Gaussian or SI."""
     mu, B, E = (
-        units.charge_to_mass(units.ELEMENTARY_CHARGE, units.PROTON_MASS),
+        units.charge_to_mass(units.ELEMENTARY_CHARGE, codata("proton mass")),
         np.array([0.2, -0.1, 1.0]),
         [3e5, 1e5, -2e4],
     )
