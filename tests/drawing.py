@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.pictures import Scene, recipes
-from atlas.pictures.drawing import save
+from atlas.pictures.drawing.files import save
 
 FloatArray = NDArray[np.float64]
 

@@ -118,11 +118,6 @@ def source(name: str) -> Path:
     return file
 
 
-def title(name: str) -> str:
-    """Return the title of a recipe: the first line of its file's docstring, without the full stop."""
-    return load(name).title
-
-
 def load(name: str) -> Recipe:
     """Return the `Recipe` of a name or file; its file is read, not run. Cached until the file changes."""
     file = source(name)

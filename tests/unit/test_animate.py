@@ -17,7 +17,8 @@ from atlas import AtlasError, ElementaryMotion
 from atlas.cli.app import atlas as command_line
 from atlas.pictures import Arrow, Curve, Label, Plane, Points, Surface, movement, recipes
 from atlas.pictures.any_motion import Upright
-from atlas.pictures.drawing import animation, to_figure
+from atlas.pictures.drawing import animation
+from atlas.pictures.drawing.panels import to_figure
 
 MOVING = ["escape", "film_strip", "flight", "rolling_cones", "tipping_disk"]
 

@@ -12,7 +12,7 @@ from drawing import distance
 from numpy.typing import NDArray
 
 from atlas.pictures import Curve, Plane, Region, Scene, Surface, recipes
-from atlas.pictures.drawing import to_figure
+from atlas.pictures.drawing.panels import to_figure
 from atlas.pictures.drawing.space import window
 from atlas.pictures.drawing.view import fit
 

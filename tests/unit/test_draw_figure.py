@@ -18,9 +18,9 @@ from pypdf import PdfReader
 import atlas
 from atlas import AtlasError, gl
 from atlas.pictures import Arrow, Curve, Image, Label, Plane, Points, Region, Scene, Space, Surface, recipes, solids
-from atlas.pictures.drawing import save, to_figure
-from atlas.pictures.drawing.files import _short, choose
+from atlas.pictures.drawing.files import _short, choose, save
 from atlas.pictures.drawing.labels import MARK, NOBODY, Tag, place
+from atlas.pictures.drawing.panels import to_figure
 from atlas.pictures.drawing.space import silhouette
 from atlas.pictures.drawing.view import fit
 from atlas.pictures.style import STYLES, WHITE, contrast
@@ -70,7 +70,7 @@ def test_another_process_writes_the_same_bytes(tmp_path: Path) -> None:
     """The seed of hashing, the locale, the time zone, a reader's settings and other figures before do not matter."""
     program = (
         "import sys; from pathlib import Path\n"
-        "from atlas.pictures import recipes; from atlas.pictures.drawing import save\n"
+        "from atlas.pictures import recipes; from atlas.pictures.drawing.files import save\n"
         "for name in ('hyperbola', 'cone', 'kinds_of_quadric'):\n"
         "    scene = recipes.load(name).scene()\n"
         "    save(scene, {Path(sys.argv[1]) / f'{name}.{kind}': kind for kind in ('pdf', 'png', 'svg')})\n"

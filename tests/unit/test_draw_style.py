@@ -16,8 +16,9 @@ from pypdf import PdfReader
 import atlas
 from atlas import AtlasError, gl
 from atlas.pictures import Curve, Image, Plane, Points, Scene, recipes
-from atlas.pictures.drawing import context, save, to_figure
-from atlas.pictures.drawing.style import style_of
+from atlas.pictures.drawing.files import save
+from atlas.pictures.drawing.panels import to_figure
+from atlas.pictures.drawing.style import context, style_of
 from atlas.pictures.drawing.text import typeset
 from atlas.pictures.style import LINES, STYLES, Style, contrast, readable
 
@@ -183,9 +184,9 @@ def test_a_map_is_refused_as_pgf(tmp_path: Path) -> None:
 
 
 def test_a_plotter_needs_a_panel_in_space() -> None:
-    """The error names the library that draws the scene."""
-    with pytest.raises(AtlasError, match="to_figure"):
-        atlas.pictures.drawing.to_plotter(lines())
+    """The error names the function that draws the scene."""
+    with pytest.raises(AtlasError, match=r"atlas\.figure"):
+        atlas.plotter("hyperbola")
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ import pytest
 from atlas import AtlasError
 from atlas.cli.figure import setting
 from atlas.pictures import recipes
-from atlas.pictures.drawing import context
+from atlas.pictures.drawing.style import context
 from atlas.pictures.parameters import described, fitted, typed_text
 from atlas.pictures.style import style
 
@@ -22,8 +22,7 @@ def test_every_file_in_figures_is_a_recipe_with_a_title() -> None:
     """Titles are the first lines of the docstrings, read without running the recipe."""
     assert {"quadrics", "ball", "lssc", "magn", "cone", "motion_sphere"} <= set(recipes.names())
     for name in recipes.names():
-        assert recipes.title(name)
-        assert recipes.title(name) == recipes.load(name).title
+        assert recipes.load(name).title
 
 
 def test_parameters_used_are_noted_in_the_scene() -> None:
@@ -164,7 +163,7 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
     with pytest.raises(AtlasError, match=r"no function scene\(\)"):
         recipes.load("empty")
     with pytest.raises(AtlasError, match="no docstring"):
-        recipes.title("mute")
+        recipes.load("mute")
 
 
 @pytest.mark.parametrize(
@@ -199,7 +198,7 @@ def test_an_unreadable_title_is_reported(folder: Path, text: bytes) -> None:
     """A recipe that is no Python has no title, and the error names it."""
     (folder / "broken.py").write_bytes(text)
     with pytest.raises(AtlasError, match=r"figures/broken\.py"):
-        recipes.title("broken")
+        recipes.load("broken")
 
 
 def test_an_unknown_role_is_named_with_the_nearest() -> None:
@@ -229,7 +228,7 @@ def test_a_recipe_is_a_file_anywhere_and_is_read_again_when_it_changes(tmp_path:
     file.write_text(RECIPE, encoding="utf-8")
     assert recipes.load(str(file)).scene(size=2).parameters["size"] == 2.0
     file.write_text(RECIPE.replace('"""Typed."""', '"""Typed again."""').replace("(0.5, 2.0)", "(0.5, 3.0)"))
-    assert recipes.title(str(file)) == recipes.load(str(file)).title == "Typed again"
+    assert recipes.load(str(file)).title == "Typed again"
     assert recipes.load(str(file)).scene(size=3).parameters["size"] == 3.0
     assert [path.name for path in tmp_path.iterdir()] == ["mine.py"]
     with pytest.raises(AtlasError, match=r"there is no recipe .*other\.py: it would be a file"):

@@ -20,7 +20,8 @@ from atlas.book.tables.table import Request
 from atlas.cli.app import atlas as command
 from atlas.pictures import Curve, Label, Plane, Scene, Space, recipes
 from atlas.pictures.arrange import arranged, suited
-from atlas.pictures.drawing import save, to_figure
+from atlas.pictures.drawing.files import save
+from atlas.pictures.drawing.panels import to_figure
 from atlas.targets import TARGETS, TYPE, find
 
 PAIRS = [(name, target) for name in recipes.names() for target in TARGETS]
@@ -202,7 +203,7 @@ def test_files_have_the_size_the_fonts_and_the_resolution(tmp_path: Path) -> Non
         assert picture.mode == "RGB"
         assert picture.width == pytest.approx(86.0 / 25.4 * 600.0, abs=1.0)
         assert picture.info["dpi"] == pytest.approx((600.0, 600.0), abs=0.1)
-        assert picture.info["Title"] == recipes.title("hyperbola")
+        assert picture.info["Title"] == recipes.load("hyperbola").title
 
 
 def test_savefig_keeps_the_settings_of_the_target(tmp_path: Path) -> None:

@@ -78,7 +78,7 @@ def turning(scene: Scene) -> Scene:
 
 def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
     """Return the picture of a subject, at the sliders' `values` by name, as bytes of a file "svg", "pdf" or "png"."""
-    from atlas.pictures.drawing import save
+    from atlas.pictures.drawing.files import save
 
     with DRAWING, TemporaryDirectory() as folder:
         file = Path(folder) / f"figure.{kind}"

@@ -189,5 +189,5 @@ def everything() -> dict[str, list[tuple[str, str]]]:
     """Return {"families": pairs, "figures": pairs} with pairs (name, title); "figure:" precedes a family's name."""
     return {
         "families": [(family.name, family.says) for family in FAMILIES.values()],
-        "figures": [(FIGURE * (name in FAMILIES) + name, recipes.title(name)) for name in recipes.names()],
+        "figures": [(FIGURE * (name in FAMILIES) + name, recipes.load(name).title) for name in recipes.names()],
     }

@@ -1,27 +1,15 @@
 """A scene as a `matplotlib.figure.Figure` or as a `pyvista.Plotter`, and into files.
 
-`figure`, `animate` and `plotter` take a recipe's name, `to_figure` and `to_plotter` a scene; `save` writes files. The
-libraries that draw are loaded by the first call.
+The libraries that draw are loaded by the first call.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from atlas.arithmetic.annotations import StyleLike
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from pyvista import Plotter
-
-_HOMES = {
-    "animate": "atlas.pictures.drawing.animation",
-    "context": "atlas.pictures.drawing.style",
-    "save": "atlas.pictures.drawing.files",
-    "to_figure": "atlas.pictures.drawing.panels",
-    "to_plotter": "atlas.pictures.drawing.window",
-}
-
-__all__ = ["animate", "context", "figure", "plotter", "save", "to_figure", "to_plotter"]
 
 
 def figure(name: str, style: StyleLike = None, target: str | None = None, **parameters: object) -> "Figure":
@@ -85,10 +73,3 @@ def plotter(name: str, *, off_screen: bool = True, **parameters: object) -> "Plo
     from atlas.pictures.drawing.window import to_plotter
 
     return to_plotter(recipes.load(name).scene(**parameters), off_screen=off_screen)
-
-
-def __getattr__(name: str) -> Any:
-    """Return the public function `name`, imported from its module. Raises AttributeError for another name."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'atlas.pictures.drawing' has no attribute {name!r}")
-    return getattr(import_module(_HOMES[name]), name)

@@ -52,7 +52,7 @@ def to_plotter(scene: Scene, *, off_screen: bool = True) -> pv.Plotter:
     """
     panels = [panel for panel in scene.panels if isinstance(panel, Space)]
     if not panels:
-        raise AtlasError("the scene has no panel in space; draw it with to_figure")
+        raise AtlasError("the scene has no panel in space; draw it with atlas.figure.")
     if gl.prepare() is None:
         raise AtlasError(gl.advice())
     size = [round(length * _DOTS) for length in scene.size]
