@@ -12,7 +12,7 @@ FUZZ_EXAMPLES ?= 10000
 
 .DEFAULT_GOAL := report
 .DELETE_ON_ERROR:
-.PHONY: help report test figures picture accessibility verify bench stress lint lint-python lint-scripts lint-types lint-floors clean setup gl lock newest lowest release FORCE
+.PHONY: help report test figures picture accessibility verify bench stress lint lint-python lint-scripts lint-types lint-floors clean setup sweep gl lock newest lowest release FORCE
 
 help:
 	@echo 'make report    the atlas, the paper on trial, the guide and a summary, as pages and PDF: build/report/atlas/index.html'
@@ -23,6 +23,7 @@ help:
 	@echo 'make bench     error against time;   make stress   the worst errors found, and 10 000 calls with extreme inputs'
 	@echo 'make accessibility   the linter axe-core on every page, the search box and what turns, in Chromium: needs node and npm; FRAMES=1 tells frames a second'
 	@echo 'make newest    the unit tests with the newest libraries that the ranges allow;   make lowest   with the oldest'
+	@echo 'make sweep     Parquet and Dask, for large tables'
 	@echo 'make release TAG=v0.2.0   the sdist and the wheel of a tag, in dist/'
 	@echo 'make lint      ruff, deno (for scripts), mypy, import-linter;   make clean   removes build/'
 
@@ -130,6 +131,8 @@ clean:
 
 setup: $(VENV)/.ready
 
+sweep: $(VENV)/.sweep
+
 # What another program's settings would bring into ours, or send elsewhere.
 unexport PYTHONPATH PYTHONHOME
 
@@ -231,7 +234,7 @@ else
 	@pwd -P >$@
 endif
 
-# What sweeps (Parquet, Dask), the tests, the benchmark and the locks need beside: each brought when it is first asked for.
+# What sweeps (Parquet, Dask), the tests, the benchmark and the locks need beside: each brought by its target.
 $(VENV)/.test: $(VENV)/.sweep
 $(VENV)/.%: requirements-%.lock $(VENV)/.ready
 ifndef HELD

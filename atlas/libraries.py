@@ -3,9 +3,8 @@
 The one list of them: versions are part of what a figure or a report depends on, and reports and records print them.
 """
 
-import sys
 from functools import cache
-from importlib import import_module, invalidate_caches
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
@@ -62,41 +61,14 @@ def versions() -> dict[str, str]:
 
 
 def of_sweeps(module: str, feature: str) -> ModuleType:
-    """Return an imported module of the optional libraries of sweeps, such as "pandas"; a checkout installs them first.
+    """Return an imported module of the optional libraries of sweeps, such as "pandas".
 
-    Raises AtlasError, which says that `feature` ("A data frame") needs the library, where it is missing and was not
-    installed.
+    Raises AtlasError, which says that `feature` ("A data frame") needs the library and how to install it, where it is
+    missing.
     """
     try:
         return import_module(module)
     except ImportError as error:
         library = module.partition(".")[0]
-        if release(library) is None and _brought(f"{feature} needs {library}"):
-            return import_module(module)
-        raise AtlasError(f"{feature} needs {library}: pip install 'atlas-charged-body[sweep]'.") from error
-
-
-def _brought(why: str) -> bool:
-    """Install the libraries of sweeps by `make` in the environment of a checkout; return whether that succeeded.
-
-    `why` is the sentence shown before; at a terminal the user is asked first. False in any other environment, or if
-    the user declines.
-    """
-    import subprocess
-
-    checkout = Path(__file__).resolve().parent.parent
-    if Path(sys.prefix).resolve() != checkout / ".venv" or not (checkout / ".venv" / ".ready").exists():
-        return False
-    count = (checkout / "requirements-sweep.lock").read_text(encoding="utf-8").count("==")
-    message = f"{why}: {count} libraries of requirements-sweep.lock go into {checkout / '.venv'}"
-    if sys.stdin is not None and sys.stdin.isatty() and sys.stderr.isatty():
-        import click
-
-        if not click.confirm(f"{message}. Install them now?", default=True, err=True):
-            return False
-    else:
-        print(f"{message}.", file=sys.stderr)  # noqa: T201
-    done = subprocess.run(["make", "-s", "-C", checkout, ".venv/.sweep"], stdout=sys.stderr, check=False)  # noqa: S603, S607
-    invalidate_caches()
-    release.cache_clear()
-    return done.returncode == 0
+        remedy = "pip install 'atlas-charged-body[sweep]', or make sweep in a checkout"
+        raise AtlasError(f"{feature} needs {library}: {remedy}.") from error

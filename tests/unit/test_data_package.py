@@ -121,9 +121,7 @@ def test_without_pyarrow_there_is_csv_and_a_line(tmp_path: Path, monkeypatch: py
     (tmp_path / "small.toml").write_text(REPORT, encoding="utf-8")
     ended = CliRunner().invoke(program, ["data", str(tmp_path / "small.toml"), "--out", str(tmp_path)])
     assert ended.exit_code == 0
-    assert ended.stderr.startswith(
-        "atlas: CSV alone: Parquet needs pyarrow: pip install 'atlas-charged-body[sweep]'.\n"
-    )
+    assert ended.stderr.startswith("atlas: CSV alone: Parquet needs pyarrow: pip install 'atlas-charged-body[sweep]'")
     place = tmp_path / "small"
     described = json.loads((place / "datapackage.json").read_text("utf-8"))["resources"]
     assert {resource["path"] for resource in described} == {str(x.relative_to(place)) for x in place.glob("*/*")}
