@@ -11,6 +11,7 @@ from atlas.book.card import has_card, object_of
 from atlas.book.digits import Number
 from atlas.book.parts import ReportRequest, case_of
 from atlas.book.tables.elementary import NONE
+from atlas.book.tables.laboratory import deviations
 from atlas.errors import AtlasError
 from atlas.families.family import ROUNDING
 from atlas.motions.any_body import motion as any_motion
@@ -18,10 +19,6 @@ from atlas.motions.register import FAMILIES
 
 Reading = Literal["rotation", "axis", "angular_velocity"]
 
-UNKNOWN = 1e-7
-"""Singular value, beside the largest, below which a combination of inputs is not determined."""
-SHARE = 1e-5
-"""Share of an input in such a combination from which on the input is not determined."""
 NUISANCES: dict[Reading, tuple[str, ...]] = {
     "rotation": ("a1", "a2", "a3"),
     "axis": ("a1", "a2"),
@@ -126,10 +123,4 @@ def expected_errors(motion: Any, names: Sequence[str], t: FloatArray, reading: R
     if reading == "axis":
         v = np.cross(v, motion.column(3, t)[:, None])
     J = np.moveaxis(v, 1, -1).reshape(3 * t.size, -1) / sigma
-    scale = np.linalg.norm(J, axis=0)
-    scale[scale == 0.0] = 1.0
-    _, values, ways = np.linalg.svd(J / scale, full_matrices=False)
-    is_known = values > UNKNOWN * values[0]
-    spread = np.sqrt(np.sum((ways[is_known] / values[is_known, None]) ** 2, axis=0)) / scale
-    spread[(np.abs(ways[~is_known]) > SHARE).any(axis=0)] = np.inf
-    return np.asarray(spread[: len(names)])
+    return deviations(J)[: len(names)]

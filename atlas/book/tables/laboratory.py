@@ -2,10 +2,10 @@
 
 import json
 from math import pi, sqrt
-from typing import Any
 
 import numpy as np
 
+from atlas.arithmetic.inputs import FloatArray
 from atlas.bodies.body import from_shape
 from atlas.bodies.laboratory import GRAVITY, anisotropy, demagnetization, gas_drag
 from atlas.bodies.units import ELECTRIC_CONSTANT, ELEMENTARY_CHARGE
@@ -20,6 +20,9 @@ MIN_COMPONENT = 1e-3
 
 NOT_SEEN = 1e-7
 """Ratio to the largest singular value below which a combination of parameters has no observable effect."""
+
+SHARE = 1e-5
+"""Share of a parameter in such a combination from which on the data do not determine the parameter."""
 
 RECORDED = {"found": ".0f", "within": ".1f", "seconds": ".2f"}
 """Columns of a record of fits, and their format."""
@@ -171,7 +174,8 @@ def inferred(setup: Watch) -> Data:
         scaled = [motion.linear * v[:, 0], n3 * v[:, 2] - n2 * v[:, 3], motion.inertia[0] * v[:, 1], 2 * pi * v[:, 4]]
         scaled += [unit * v[:, 5], unit * v[:, 6], *np.moveaxis(rotated, 1, 0)]
         J = np.stack([np.cross(derivative, motion.column(3, t)).ravel() for derivative in scaled], -1) / setup.noise
-        columns.append([*_deviations(J)[:4], _deviations(np.delete(J, 2, axis=1))[2]])
+        spreads = [*deviations(J)[:4], deviations(np.delete(J, 2, axis=1))[2]]
+        columns.append([Number(f"{x:.1e}") if np.isfinite(x) else "–" for x in spreads])
     return Data(
         heads("Quantity", *(f"spin {spin:g} Hz" for spin in setup.spins)),
         tuple((name, *row) for name, row in zip(names, zip(*columns, strict=True), strict=True)),
@@ -181,18 +185,17 @@ def inferred(setup: Watch) -> Data:
     )
 
 
-def _deviations(J: Any) -> list[str | Number]:
-    """Return the standard deviations of P parameters from derivatives J (N, P) of data in units of their noise.
+def deviations(J: FloatArray) -> FloatArray:
+    """Return the standard deviations (P,) of parameters from derivatives J (N, P) of data in units of their noise.
 
-    They are `Number`s of two digits; a dash stands for a parameter in a combination that the data do not determine.
+    They follow from the Fisher matrix J^T J; inf for a parameter in a combination that the data do not determine.
     """
     size = np.linalg.norm(J, axis=0)
-    size[size == 0] = 1.0
+    size[size == 0.0] = 1.0
     _, s, V = np.linalg.svd(J / size, full_matrices=False)
-    information = s > NOT_SEEN * s[0]
-    unseen = (abs(V[~information]) > sqrt(NOT_SEEN)).any(axis=0)
-    deviations = np.sqrt(((V[information] / s[information, None]) ** 2).sum(axis=0)) / size
-    return ["–" if bad else Number(f"{x:.1e}") for x, bad in zip(deviations, unseen, strict=True)]
+    is_known = s > NOT_SEEN * s[0]
+    spread = np.sqrt(((V[is_known] / s[is_known, None]) ** 2).sum(axis=0)) / size
+    return np.where((abs(V[~is_known]) > SHARE).any(axis=0), np.inf, spread)
 
 
 class Design(StrictStruct, frozen=True):
