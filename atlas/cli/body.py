@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import click
 
 from atlas.bodies.formula_domain import check_ratio
-from atlas.cli.nearest_body import nearest_moments, nearest_tensor, unit_quaternion
+from atlas.cli.nearest_body import nearest_moments, nearest_tensor
 from atlas.cli.options import FILE, chosen_times, given_options, numbers, stack
 from atlas.cli.points import exact_inertia, oblique_tensor, point_masses, points, principal_moments, ratio_of_points
 from atlas.cli.typed import REAL, Inclined, Typed, exactly, measured, parts_of
@@ -128,7 +128,6 @@ attitude_option: Callable[[F], F] = numbers(
     "Initial rotation R(0), a unit quaternion with the scalar last, such as 0.6 0 0 0.8; --field is then along the "
     "laboratory's axes.",
     "X Y Z W",
-    callback=unit_quaternion,
 )
 start_option: Callable[[F], F] = numbers(
     "omega", "Initial angular velocity, in 1/time or such as 2MHz: its components along the body's axes.", "W1 W2 W3"

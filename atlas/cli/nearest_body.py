@@ -16,8 +16,8 @@ SINGLE = 3e-7
 LARGEST = 0.02
 """Part of the largest moment beyond which it is not a matter of digits that there is no body."""
 
-LENGTH, ROUNDED = 1e-3, 1e-6
-"""By how much a quaternion's length may differ from 1, and from where on it is said."""
+ROUNDED = 1e-6
+"""Part of the largest element of a tensor beyond which it is not by rounding that no body has it."""
 
 
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:
@@ -124,19 +124,6 @@ def _signed(text: str, sign: int) -> str:
     if sign > 0:
         return text
     return text[1:] if text.startswith("-") else f"-{text.removeprefix('+')}"
-
-
-def unit_quaternion(_: click.Context, param: click.Parameter, value: Any) -> Any:
-    """Return a typed quaternion X Y Z W; normalised, with a line on standard error, if its length is 1 up to 1e-3.
-
-    A callback of click's option `param`. Unchanged are None, a length within 1e-6 of 1, and any other length, which is
-    refused later.
-    """
-    if value is None or not ROUNDED < abs((length := math.hypot(*value)) - 1) < LENGTH:
-        return value
-    new = tuple(_with_value(x, float(x) / length, None) for x in value)
-    _tell(param, value, new, f"a quaternion of the length {length:.6g}", "divided by it")
-    return new
 
 
 def _exact(x: Typed) -> Fraction:

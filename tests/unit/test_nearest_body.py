@@ -52,7 +52,10 @@ def test_printed_plates_are_bodies(digits: int) -> None:
         (("--inertia", ".281", ".563"), "used instead is the plane body next to them, .*0.2813333333 0.5626666667"),
         (("--ratio", "2.0000001"), "used instead is the largest, 2"),
         (("--tensor", "0.2083", "0.2083", "0.4167", "0.125", "0", "0"), "0.20835 0.20835 0.4167 0.125 0 0"),
-        (("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"), "of the length 0.99999, .* divided by it"),
+        (
+            ("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"),
+            "of the length 0.99999; used instead is the quaternion divided by it",
+        ),
     ],
 )
 def test_inputs_off_by_their_last_digits_are_corrected_with_a_warning(words: tuple[str, ...], message: str) -> None:
