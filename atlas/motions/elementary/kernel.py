@@ -506,26 +506,6 @@ class FreeMotion(DoubleTurn[Free]):
         names = np.select(conditions, ["at rest", "ball", "long axis"], "short axis")
         return names if self.shape else str(names)
 
-    def angular_velocity(self, t: RealArrayLike) -> FloatArray:
-        """Angular velocity Omega(t) in the body, which rotates about the third axis with frequency phi.
-
-        Parameters
-        ----------
-        t : array_like
-            Times, as for `rotation`.
-
-        Returns
-        -------
-        ndarray, shape (..., 3)
-            Components of Omega, in rad/time.
-
-        Raises
-        ------
-        AtlasError
-            For a time that is not finite or whose phases exceed 2^50.
-        """
-        return super().angular_velocity(t)
-
     def field_in_body(self, t: RealArrayLike) -> FloatArray:
         """Field K(t) = 0 in the body: a free body has no field.
 
