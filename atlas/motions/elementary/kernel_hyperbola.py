@@ -14,12 +14,11 @@ from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import exact_moments, kept_ratio
-from atlas.bodies.display import Shown
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.elementary.closed import ClosedMotion
 from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
-from atlas.motions.nutation.top_hyperbola import Branch, halves
+from atlas.motions.nutation.top_hyperbola import Branch, Branched, halves
 
 if TYPE_CHECKING:
     from atlas.motions.nutation.kernel_general import GeneralMotion
@@ -29,7 +28,7 @@ MAX_POINTS = 10**8
 """Points of a curve that are sampled in one call."""
 
 
-class Hyperbola(Shown):
+class Hyperbola(Branched):
     """Hyperbola of elementary motions in the plane omega1 = 0, eqs. (67)-(72), and its stability.
 
     Its equation is B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
@@ -347,29 +346,6 @@ class Hyperbola(Shown):
             sum_ = 1 - 2 * tau2 + root(disc / (B2 * B2))
             return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
 
-    def sample(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> Branch:
-        """Points (omega2, omega3) of all branches of (67), one branch after the other; see `branches`.
-
-        Parameters
-        ----------
-        points : int or array_like
-            Number of points, or values of the hyperbolic parameter s.
-        reach : float
-            Extent of the curve, in units of |B'|.
-
-        Returns
-        -------
-        omega2, omega3 : ndarray
-            Coordinates in rad/time.
-
-        Raises
-        ------
-        DomainError, AtlasError
-            As for `branches`.
-        """
-        omega2, omega3 = zip(*self.branches(points, reach=reach), strict=True)
-        return np.concatenate(omega2), np.concatenate(omega3)
-
     def branches(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
         """Branches of (67) sampled by the hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s; X > 0 first.
 
@@ -403,9 +379,8 @@ class Hyperbola(Shown):
         if b == 0:
             raise DomainError("With B = 0 every point (omega2, omega3) is a motion: there is no curve to sample.")
         if self.B2 and self.B3:
-            return tuple(
-                self._branch(sign, s) for sign, s in zip((1, -1), self._parameters(points, extent), strict=True)
-            )
+            right, left = self._distances(points, extent)
+            return self._branch(1, right), self._branch(-1, left)
         if np.ndim(points):
             raise AtlasError(
                 "With B2 = 0 or B3 = 0 the curve is straight and has no parameter: give a number of points."
@@ -416,15 +391,20 @@ class Hyperbola(Shown):
         x, y = (np.linspace(-extent, extent, n) for n in halves(points))
         return (x - self.B2, np.zeros_like(x)), (np.full_like(y, -self.B2), y)
 
-    def _parameters(self, points: Any, extent: float) -> tuple[FloatArray, FloatArray]:
-        """Return the values of s on the branch X > 0 and on the branch X < 0, two arrays.
+    def _distances(self, points: Any, extent: float) -> list[FloatArray]:
+        """Return |X| on the branch X > 0 and on the branch X < 0, two arrays in rad/time.
 
-        ``points`` is their total number, spread evenly, or s itself for both; ``extent`` bounds |X| and |Y|, in
-        rad/time. Raises DomainError where B2 and B3 are too far apart for floats.
+        ``points`` is their total number, spread evenly in s, or s itself for both; ``extent`` bounds |X| and |Y|, in
+        rad/time. Raises DomainError where B2 and B3 are too far apart for floats, AtlasError for parameters that
+        lead beyond all floats.
         """
         if np.ndim(points):
             s = real(points, "The parameter")
-            return s, s
+            with np.errstate(over="ignore", invalid="ignore"):
+                w = self._scale() * np.exp(s)
+            if not np.isfinite(w).all():
+                raise AtlasError(f"A parameter of {np.max(s)} leads beyond the largest float.")
+            return [w, w]
         I2, I3, b2, b3 = self._exact
         B2, tangent = abs(self.B2), nearest(abs(I2 * b3 / (I3 * b2)))
         scale = self._scale()
@@ -432,22 +412,7 @@ class Hyperbola(Shown):
             raise DomainError(f"B2 = {self.B2} and B3 = {self.B3} are too far apart: B3/(I B2) must be a float.")
         high = np.log(extent / scale)
         low = np.log(scale / B2) + np.log(tangent * B2 / extent) if I2 != I3 else high - np.log(1e3)
-        lower_branch, upper_branch = (np.linspace(min(low, high - 1), high, n) for n in halves(points))
-        return lower_branch, upper_branch
-
-    def _branch(self, sign: int, s: FloatArray) -> Branch:
-        """Return (omega2, omega3), (m,) in rad/time, at parameters s (m,), where X = omega2 + B2 has the ``sign``.
-
-        An omega2 that rounds to the pole is replaced by the next float beside it. Raises AtlasError for parameters
-        that lead beyond all floats.
-        """
-        with np.errstate(over="ignore", invalid="ignore"):
-            omega2 = sign * self._scale() * np.exp(s) - self.B2
-        if not np.isfinite(omega2).all():
-            raise AtlasError(f"A parameter of {np.max(s)} leads beyond the largest float.")
-        neighbour = np.nextafter(self.pole, sign * np.inf)
-        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, neighbour)
-        return omega2, np.asarray(self.omega3(omega2))
+        return [scale * np.exp(np.linspace(min(low, high - 1), high, n)) for n in halves(points)]
 
     def _scale(self) -> float:
         """Return |X| at s = 0, in rad/time: the vertical semi-axis of the curve, or |B2| for I = 1."""
