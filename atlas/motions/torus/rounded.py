@@ -24,8 +24,8 @@ FIRST_BITS = 80
 MAX_RADIUS = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""
 
-MAX_STEPPED_PHASE, STEP_PHASE = 1000.0, 0.05
-"""Largest phase up to which a motion is followed by steps, and the phase of one."""
+MAX_STEPPED_PHASE, TOLERANCE = 1000.0, 1e-6
+"""Largest phase up to which a motion is followed by steps, and the error of one."""
 
 
 class Certified:
@@ -70,19 +70,26 @@ class Certified:
         return out
 
     def _followed(self, times: FloatArray) -> FloatArray:
-        """Return quaternions (x, y, z, w), (m, 4), at times (m,) by Runge-Kutta steps from t = 0.
+        """Return quaternions (x, y, z, w), (m, 4), at times (m,) by integration from t = 0.
 
         They are rough: only their signs are used.
         """
-        inertia, K, Omega = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
-        quaternions = np.empty((times.size, 4))
-        for side in (times >= 0, times < 0):
-            y, now = np.concatenate([K, Omega, [0.0, 0.0, 0.0, 1.0]]), 0.0
-            for i in np.flatnonzero(side)[np.argsort(abs(times[side]))].tolist():
-                count = int(np.ceil(abs(times[i] - now) * self.size / STEP_PHASE))
-                for _ in range(count):
-                    y = _stepped(np.diag(inertia), y, (times[i] - now) / count)
-                quaternions[i], now = y[6:], times[i]
+        from scipy.integrate import solve_ivp
+
+        inertia, *rates = map(floats, (self.exact.inertia, self.exact.field, self.exact.omega))
+        start = np.concatenate([*(x / self.size for x in rates), [0.0, 0.0, 0.0, 1.0]])
+
+        def rate(_: float, y: FloatArray) -> FloatArray:
+            K, Omega, q = y[:3], y[3:6], y[6:]
+            turn = product(q, np.append(Omega / 2, 0.0))
+            return np.concatenate([field_rate(K, Omega), angular_acceleration(np.diag(inertia), K, Omega), turn])
+
+        phases, quaternions = times * self.size, np.empty((times.size, 4))
+        for side in (phases >= 0, phases < 0):
+            if side.any():
+                end = max(phases[side], key=abs)
+                followed = solve_ivp(rate, (0.0, end), start, rtol=TOLERANCE, atol=TOLERANCE, dense_output=True)
+                quaternions[side] = followed.sol(phases[side])[6:].T
         return quaternions
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
@@ -138,23 +145,6 @@ class Certified:
                     self.exact.follow([times[i] for i in block])
             for i in block:
                 rows[i] = rounded(lambda t=times[i]: function(t), size).reshape(rows[i].shape)  # type: ignore[misc]
-
-
-def _stepped(inertia: FloatArray, y: FloatArray, h: float) -> FloatArray:
-    """Return (K, Omega, quaternion), shape (10,), after a Runge-Kutta step h in time of the equations of motion.
-
-    y (10,) is that state before, with the quaternion as (x, y, z, w); ``inertia`` is (3, 3).
-    """
-
-    def rate(y: FloatArray) -> FloatArray:
-        K, Omega, q = y[:3], y[3:6], y[6:]
-        turn = product(q, np.append(Omega / 2, 0.0))
-        return np.concatenate([field_rate(K, Omega), angular_acceleration(inertia, K, Omega), turn])
-
-    a = rate(y)
-    b = rate(y + h / 2 * a)
-    c = rate(y + h / 2 * b)
-    return np.asarray(y + h / 6 * (a + 2 * b + 2 * c + rate(y + h * c)))
 
 
 def rounded(function: Callable[[], Any], size: float) -> FloatArray:
