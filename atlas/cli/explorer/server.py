@@ -34,15 +34,8 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-PAGES = {
-    "": ("explore.html", "text/html"),
-    "explore.js": ("explore.js", "text/javascript"),
-    "scene.js": ("scene.js", "text/javascript"),
-    "sliders.js": ("sliders.js", "text/javascript"),
-    "style.css": ("style.css", "text/css"),
-    "explore.css": ("explore.css", "text/css"),
-    "icon.svg": ("icon.svg", "image/svg+xml"),
-}
+PAGES = "", "explore.js", "scene.js", "sliders.js", "style.css", "explore.css", "icon.svg"
+KINDS = {"html": "text/html", "js": "text/javascript", "css": "text/css", "svg": "image/svg+xml"}
 COOKIE = "atlas"
 OPENS = '<!DOCTYPE html>\n<title>atlas explore</title>\n<meta http-equiv="refresh" content="0; url={}">\n'
 """A page that leads on. A redirect would not do: after one that came from a file no browser sends a strict cookie."""
@@ -157,8 +150,8 @@ class Handler(BaseHTTPRequestHandler):
         `query` holds the texts after "?" by name. Raises AtlasError for values with no picture.
         """
         if place in PAGES:
-            name, kind = PAGES[place]
-            return _page(name), kind
+            name = place or "explore.html"
+            return _page(name), KINDS[name.partition(".")[2]]
         answer = ANSWERS.get(place)
         return answer(self.server, query) if answer else None
 
