@@ -66,12 +66,9 @@ def composed(
     return document, {picture.stem: build for build, picture in builds.items()}, out / name_of(file, values)
 
 
-OUT = Path("build/data")
-
-
 def build_data(
     name: str | Path,
-    out: Path = OUT,
+    out: Path,
     progress: Progress = lambda _done, _total, _what: None,
     *,
     jobs: int | None = None,
@@ -103,14 +100,13 @@ def build_data(
     return place / DESCRIPTION
 
 
-TEX_OUT = Path("build/tex")
 TARGETS = ("aps", "aps-double")
 """Targets of the figures of a paper in REVTeX: one column, or both."""
 
 
 def build_tex(
     name: str | Path,
-    out: Path = TEX_OUT,
+    out: Path,
     progress: Progress = lambda _done, _total, _what: None,
     *,
     jobs: int | None = None,

@@ -21,8 +21,6 @@ from atlas.libraries import versions
 from atlas.places import cache_folder, folder, settle_matplotlib
 from atlas.sources import PACKAGE, Sources, digest
 
-OUT = Path("build/figures")
-FORMATS = ("svg", "pdf", "png")
 MAX_WORKERS = 8
 """As many workers as there may be when the user does not say how many."""
 Progress = Callable[[int, int, str], None]
@@ -245,8 +243,8 @@ class Files:
 
 def build_figures(
     names: Sequence[str],
-    formats: Sequence[str] = FORMATS,
-    out: Path = OUT,
+    formats: Sequence[str],
+    out: Path,
     *,
     renderer: str = "vector",
     parameters: Mapping[str, Any] | None = None,

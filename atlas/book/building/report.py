@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from atlas.book.definition import Report
     from atlas.book.document import Document
 
-OUT = Path("build/report")
 FORMATS = ("html", "pdf")
 Progress = Callable[[int, int, str], None]
 
@@ -74,7 +73,7 @@ class Built:
 
 def build_report(
     name: str | Path,
-    out: Path = OUT,
+    out: Path,
     progress: Progress = lambda _done, _total, _what: None,
     *,
     formats: Sequence[str] = FORMATS,
