@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from atlas.book.building import figures
 from atlas.book.building.cache import Cache
-from atlas.book.building.figures import FigureBuild
+from atlas.book.building.figures import FigureBuild, Progress
 from atlas.book.building.publish import replace
 from atlas.book.files import find
 from atlas.book.inputs import evaluated, name_of
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from atlas.book.blocks.figure import FigureView, Picture
     from atlas.book.document import Document
 
-Progress = Callable[[int, int, str], None]
 NO_INPUTS: Mapping[str, str] = MappingProxyType({})
 
 
