@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import atlas
 from atlas.cli.app import atlas as program
-from atlas.errors import DomainError
+from atlas.errors import DomainError, NearestInputWarning
 
 FREE = ["--field", "0", "0", "0", "--omega", "0.3", "0.7", "0.2", "--times", "0", "--json"]
 
@@ -52,17 +52,20 @@ def test_printed_plates_are_bodies(digits: int) -> None:
         (("--inertia", ".281", ".563"), "used instead is the plane body next to them, .*0.2813333333 0.5626666667"),
         (("--ratio", "2.0000001"), "used instead is the largest, 2"),
         (("--tensor", "0.2083", "0.2083", "0.4167", "0.125", "0", "0"), "0.20835 0.20835 0.4167 0.125 0 0"),
-        (
-            ("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071"),
-            "of the length 0.99999; used instead is the quaternion divided by it",
-        ),
     ],
 )
 def test_inputs_off_by_their_last_digits_are_corrected_with_a_warning(words: tuple[str, ...], message: str) -> None:
-    """A disk, a ratio, a tensor, a quaternion."""
+    """A disk, a ratio, a tensor."""
     outcome = run(*words, *FREE)
     assert outcome.exit_code == 0, outcome.output
     assert re.search(message, outcome.stderr)
+    assert json.loads(outcome.stdout)
+
+
+def test_a_quaternion_off_by_its_last_digits_is_divided_by_its_length() -> None:
+    """The command warns as the motion in Python does."""
+    with pytest.warns(NearestInputWarning, match="of the length 0.99999; used instead is the quaternion divided by it"):
+        outcome = run("--ratio", "1.5", "--attitude", ".7071", "0", "0", ".7071", *FREE)
     assert json.loads(outcome.stdout)
 
 

@@ -14,11 +14,12 @@ from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, length, nearest, root, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import exact_moments, kept_ratio
+from atlas.bodies.display import Shown
 from atlas.bodies.formula_domain import check_asymptotes, check_curve
 from atlas.errors import AtlasError, DomainError
 from atlas.motions.elementary.closed import ClosedMotion
 from atlas.motions.elementary.formula_hyperbola import frequencies, least_stability, ordinate, stability
-from atlas.motions.nutation.top_hyperbola import Branch, Branched, halves
+from atlas.motions.nutation.top_hyperbola import Branch, branch, halves
 
 if TYPE_CHECKING:
     from atlas.motions.nutation.kernel_general import GeneralMotion
@@ -28,7 +29,7 @@ MAX_POINTS = 10**8
 """Points of a curve that are sampled in one call."""
 
 
-class Hyperbola(Branched):
+class Hyperbola(Shown):
     """Hyperbola of elementary motions in the plane omega1 = 0, eqs. (67)-(72), and its stability.
 
     Its equation is B3 w2^2 - I B2 w2 w3 + (2-I) B2 B3 w2 - I B2^2 w3 = 0.
@@ -346,6 +347,29 @@ class Hyperbola(Branched):
             sum_ = 1 - 2 * tau2 + root(disc / (B2 * B2))
             return nearest(2 * one_less * tau2 / sum_), nearest(one_less * sum_ / (2 + 2 * tau2))
 
+    def sample(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> Branch:
+        """Points (omega2, omega3) of all branches of (67), one branch after the other; see `branches`.
+
+        Parameters
+        ----------
+        points : int or array_like
+            Number of points, or values of the hyperbolic parameter s.
+        reach : float
+            Extent of the curve, in units of |B'|.
+
+        Returns
+        -------
+        omega2, omega3 : ndarray
+            Coordinates in rad/time.
+
+        Raises
+        ------
+        DomainError, AtlasError
+            As for `branches`.
+        """
+        omega2, omega3 = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(omega2), np.concatenate(omega3)
+
     def branches(self, points: RealArrayLike = 200, *, reach: float = 4.0) -> tuple[Branch, ...]:
         """Branches of (67) sampled by the hyperbolic parameter s, X = ± sqrt|1-I| |B2| e^s; X > 0 first.
 
@@ -380,7 +404,7 @@ class Hyperbola(Branched):
             raise DomainError("With B = 0 every point (omega2, omega3) is a motion: there is no curve to sample.")
         if self.B2 and self.B3:
             right, left = self._distances(points, extent)
-            return self._branch(1, right), self._branch(-1, left)
+            return branch(self, 1, right), branch(self, -1, left)
         if np.ndim(points):
             raise AtlasError(
                 "With B2 = 0 or B3 = 0 the curve is straight and has no parameter: give a number of points."

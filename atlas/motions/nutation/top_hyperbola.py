@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from atlas.arithmetic.annotations import RealArrayLike
 from atlas.arithmetic.certified_digits import enclosed
 from atlas.arithmetic.dimensions import ENERGY, RATE
 from atlas.arithmetic.double_double import over
@@ -37,31 +36,17 @@ BITS = 64
 """Digits of the ends of a band, before they are rounded once."""
 
 
-class Branched(Shown):
-    """A curve omega3(omega2) of branches on either side of its ``pole``, in rad/time, which is left out.
+def branch(curve: Any, sign: int, w: FloatArray) -> Branch:
+    """Return (omega2, omega3) of a `curve`, (m,) each, at the distances w (m,) > 0 from its pole, on the side +-1.
 
-    A subclass has ``pole``, ``omega3`` and ``branches``.
+    The side is `sign`. An omega2 that rounds to the pole is replaced by the next float beside it.
     """
-
-    def sample(self: Any, points: RealArrayLike = 200, *, reach: float = 4.0) -> Branch:
-        """Return (omega2, omega3), arrays in rad/time, of all branches, one after the other.
-
-        The parameters and what is raised are those of `branches`.
-        """
-        omega2, omega3 = zip(*self.branches(points, reach=reach), strict=True)
-        return np.concatenate(omega2), np.concatenate(omega3)
-
-    def _branch(self: Any, sign: int, w: FloatArray) -> Branch:
-        """Return (omega2, omega3), (m,) each, at the distances w (m,) > 0 from the pole, on the side ``sign``, +-1.
-
-        An omega2 that rounds to the pole is replaced by the next float beside it.
-        """
-        omega2 = sign * w + self.pole
-        omega2 = np.where((omega2 - self.pole) * sign > 0, omega2, np.nextafter(self.pole, sign * np.inf))
-        return omega2, np.asarray(self.omega3(omega2))
+    omega2 = sign * w + curve.pole
+    omega2 = np.where((omega2 - curve.pole) * sign > 0, omega2, np.nextafter(curve.pole, sign * np.inf))
+    return omega2, np.asarray(curve.omega3(omega2))
 
 
-class TopHyperbola(Branched):
+class TopHyperbola(Shown):
     """The curve omega1 = 0 of `TopQuadric`: n3 w^2 - I n2 w v + n2^2 n3 D = 0, each point a steady precession.
 
     ``inertia`` (I2, I3), ``coupling`` (k2, k3), ``direction`` (n2, n3), ``linear`` and ``quadratic`` are those of
@@ -147,6 +132,14 @@ class TopHyperbola(Branched):
         inertia, coupling, direction, linear, quadratic = self.given
         return TopMotion(inertia, coupling, direction, (omega1, omega2, self.omega3(omega2)), linear, quadratic)
 
+    def sample(self, points: int = 200, *, reach: float = 4.0) -> Branch:
+        """Return (omega2, omega3), in rad/time, arrays of all ``points`` of both branches, one after the other.
+
+        For the largest |w|, given by ``reach``, and for errors see `branches`.
+        """
+        start, second = zip(*self.branches(points, reach=reach), strict=True)
+        return np.concatenate(start), np.concatenate(second)
+
     def branches(self, points: int = 200, *, reach: float = 4.0) -> tuple[Branch, Branch]:
         """Return two pairs of arrays (omega2, omega3), the branch w > 0 first, even in the logarithm of |w|.
 
@@ -166,7 +159,7 @@ class TopHyperbola(Branched):
         high = positive(reach, "reach") * (b or 1.0)
         low = min(push * I2 / I3 / high or 1e-3 * high, high / np.e)
         upper, lower = (np.geomspace(low, high, n) for n in halves(points))
-        return self._branch(1, upper), self._branch(-1, lower)
+        return branch(self, 1, upper), branch(self, -1, lower)
 
     def _over(self, formula: Any, exact: Callable[[float], Any], omega2: Any, degree: Any = 1) -> Any:
         """Return a formula of `formula_top` at omega2, each result rounded once: a float or array, or a list of these.
