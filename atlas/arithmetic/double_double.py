@@ -318,7 +318,7 @@ def column(x: Any, shape: tuple[int, ...]) -> DoubleDouble:
 
 
 def _cut(x: DoubleDouble, rows: slice) -> DoubleDouble:
-    """Return the ``rows`` of a column; words and bounds that are single numbers stay as they are."""
+    """Return the ``rows`` of a column; words and bounds that are single numbers or None stay as they are."""
     words = (y if y is None or isinstance(y, float) else y[rows] for y in (x.hi, x.lo, x.rel))
     return DoubleDouble(*words)
 

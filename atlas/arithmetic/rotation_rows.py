@@ -84,8 +84,8 @@ def _words(frequency: Number) -> list[float]:
 def words_of(formula: Callable[..., Any], inputs: Sequence[Any], unit: slice) -> tuple[FloatArray, FloatArray]:
     """Return (`words`, `errors`) of `Frequencies`, (2, 2, m) and (2, m), for inputs that broadcast to m motions.
 
-    ``formula`` returns two frequencies in rad/time; the inputs ``unit`` are themselves frequencies. Where inputs
-    are out of range, `errors` is NaN.
+    ``formula`` returns two frequencies in rad/time; the inputs in the slice ``unit`` are themselves frequencies. Where
+    inputs are out of range, `errors` is NaN.
     """
     shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
     words, errors = list[Any](), list[Any]()
@@ -114,11 +114,12 @@ Group = tuple[Constants, Any, Sequence[Any]]
 
 
 class DoubleRotationRows:
-    """Rotations `DoubleRotation` of ``count`` motions, each evaluated at one time.
+    """Rotations R_n(k t) R_z(phi t), as `DoubleRotation`, of ``count`` motions, each evaluated at one time.
 
-    ``groups`` are triples (formula, indices of motions, inputs); a formula returns (vector along n, k, phi), its
-    inputs ``unit`` are frequencies in rad/time. ``vectors()`` returns constant vectors by name, three components
-    (count,) each. ``inverse`` transposes the matrices, (28). Methods that evaluate write into the array ``out``.
+    `at(index, t)` pairs motions with their times; its result alone evaluates, and writes into the array ``out``.
+    ``groups`` are triples (formula, indices of motions, inputs): formula(*inputs) returns (vector along n, k, phi),
+    k and phi in rad/time, as are the inputs in the slice ``unit``. ``vectors()`` returns constant vectors by name,
+    three components (count,) each. ``inverse`` transposes the matrices, (28).
     """
 
     def __init__(

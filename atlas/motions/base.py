@@ -150,9 +150,9 @@ class Motion(Shown, Generic[Single]):
     def given(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Inputs of `atlas.motion` as a tuple of four arrays: inertia tensor, field B', R(0) and Omega(0).
 
-        Tensor (..., 3, 3) and Omega(0) (..., 3), in rad/time, are along the body's given axes, the field (..., 3),
-        in 1/time, along those of the laboratory; R(0) is (..., 3, 3). Raises AtlasError for a motion made by its
-        class alone.
+        `atlas.motion` takes the last two in the other order, omega before attitude. Tensor (..., 3, 3) and Omega(0)
+        (..., 3), in rad/time, are along the body's given axes, the field (..., 3), in 1/time, along those of the
+        laboratory; R(0) is (..., 3, 3). Raises AtlasError for a motion made by its class alone.
         """
         p = self._placement
         if p is None:

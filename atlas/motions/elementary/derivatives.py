@@ -46,12 +46,12 @@ class AxisAndRates:
         return steady(self.tilt(), self.k, self.phi, arb("inf"))
 
     def rotation(self, t: fmpq) -> Matrix:
-        """Return R(t) as three rows of balls."""
+        """Return R(t) as three rows of balls or rationals."""
         axis, last_column = self._axes
         return turns(t, (axis, self.k), (last_column, self.phi))
 
     def angular_velocity(self, t: fmpq) -> list[Any]:
-        """Return Omega(t) along the body's axes, three balls in rad/time."""
+        """Return Omega(t) along the body's axes in rad/time, a list of three balls or rationals."""
         s, c = sin_cos(self.phi * t)
         n1, n2, n3 = direction(self._axes[0])
         return turned_back((self.k * n1, self.k * n2, self.k * n3 + self.phi), c, s)
@@ -96,8 +96,8 @@ def among_all(
     """Return the `Inputs` of motion number ``i`` of a placed ``motion`` as a general motion of its body.
 
     ``scalars``, the functions by name that take the certified general motion, give the scalars of the motion's own
-    family. Vectors are along ``axes`` (..., 3, 3),
-    rows given in the body; without ``axes``, along the axes of the class.
+    family. Vectors are along ``axes`` (..., 3, 3), rows given in the body; without ``axes``, along the axes of the
+    class.
     """
     row, shape = motion._row(i), (*motion.shape, 3)  # noqa: SLF001  of the same folder
     _, B, R, w = motion.given

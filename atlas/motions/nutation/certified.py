@@ -161,7 +161,7 @@ class Nutating:
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession in rad/time: `precession_per_period` over `period`.
+        """Mean rate of precession in rad/time, a ball: `precession_per_period` over `period`.
 
         Raises DomainError without a period.
         """
@@ -169,7 +169,7 @@ class Nutating:
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of rotation about the body's axis in rad/time: `spin_per_period` over `period`.
+        """Mean rate of rotation about the body's axis in rad/time, a ball: `spin_per_period` over `period`.
 
         Raises DomainError without a period.
         """

@@ -127,7 +127,7 @@ class GeneralMotion(Nutating):
     def steady_rates(self) -> tuple[Real, Real]:
         """Return (k about the field, phi about the body's axis) in rad/time, for a motion with constant Omega3.
 
-        For a free body k is about the momentum.
+        Each is a ball or a rational. For a free body k is about the momentum.
         """
         q, (w1, w2, w3) = self.quartic, self.omega
         if self.kind == "free body":
@@ -169,17 +169,17 @@ class GeneralMotion(Nutating):
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession, in rad/time, see `Nutating`.
+        """Mean rate of precession in rad/time, a ball or a rational, see `Nutating`.
 
-        For a free body it is k of `steady_rates`, about its momentum.
+        For a free body it is k of `steady_rates`, about its momentum; otherwise DomainError without a period.
         """
         return self.steady_rates()[0] if self.quartic.K2 == 0 else super().precession_rate
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of the body's turn about its axis, in rad/time, see `Nutating`.
+        """Mean rate of the body's rotation about its axis in rad/time, a ball or a rational, see `Nutating`.
 
-        For a free body it is phi of `steady_rates`.
+        For a free body it is phi of `steady_rates`; otherwise DomainError without a period.
         """
         return self.steady_rates()[1] if self.quartic.K2 == 0 else super().spin_rate
 
@@ -216,7 +216,7 @@ class GeneralMotion(Nutating):
 
     @property
     def precession(self) -> Real:
-        """Rate -|B'| of Larmor's frame about the field, in rad/time."""
+        """Rate -|B'| of Larmor's frame about the field in rad/time, a ball or a rational."""
         return -self.b
 
     @property
@@ -229,7 +229,10 @@ class GeneralMotion(Nutating):
         return q.c3 == 0 and not self.is_steady and q.low + q.high == sum(r.is_real for r in q.roots()) - 1
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m/I2 = R (Omega1, Omega2, I Omega3) in the laboratory at time t, a list of three balls in rad/time."""
+        """Return m/I2 = R (Omega1, Omega2, I Omega3) in the laboratory at time t in rad/time, a list of three.
+
+        They are balls; without a field, where m is constant, rationals.
+        """
         w1, w2, w3 = self.angular_velocity(t) if any(self.field) else self.omega
         m = [w1, w2, self.I * w3]
         return applied(self.rotation(t), m) if any(self.field) else m

@@ -181,16 +181,16 @@ def _poles_aside(lattice: Lattice, depth: arb, factor: arb) -> tuple[Sum, Sum]:
 def _merged(lattice: Lattice, factor: arb) -> tuple[Sum, Sum]:
     """Return the sums (O times ``factor``, E) for a double pole of nu at s = i imaginary of the ``lattice``.
 
-    See `_poles_aside`. O is the slope of E, negated, over rate.
+    O and E, each a `Sum`, are as for `_poles_aside`; O is the slope of E, negated, over rate.
     """
     sign = 1 if lattice.form == "trigonometric" else -1
     return _beside_imaginary(lattice, STEEP, sign * factor, lambda k: (arb(k), arb(1)))
 
 
 def _poles_on_axis(lattice: Lattice, y: arb, factor: arb) -> tuple[Sum, Sum]:
-    """Return the sums (O times ``factor``, E) of the ``lattice`` for poles of nu at s = i y and -i y.
+    """Return the sums (O times ``factor``, E) of the ``lattice`` for poles of nu at s = i y and -i y, y > 0 in time.
 
-    See `_poles_aside`.
+    O and E are the odd and even parts, each a `Sum`, of a theta function that is zero where nu is infinite.
     """
     if lattice.form == "trigonometric":
         function = _inclined(lattice, y)

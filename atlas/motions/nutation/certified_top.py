@@ -203,7 +203,7 @@ class TopMotion(Nutating):
         }
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, three balls in rad/time; Omega3 is exactly constant for k3 = 0."""
+        """Return Omega(t) along the body's axes in rad/time, three balls; Omega3 is the rational omega3 for k3 = 0."""
         transverse, second, third = super().angular_velocity(t)
         # without k3 there is no torque about the axis that is not one of n
         return [transverse, second, third if self.coupling[1] else self.omega[2]]

@@ -71,9 +71,10 @@ class Trigonometric:
         return _powers(pairs, doubled=False) + [acb(0)] * (2 * max(0, self.terms - len(sum_.odd)) + self.constant)
 
     def fill(self, rows: FloatArray, u: FloatArray) -> None:
-        """Write the basis functions into rows (count, N), from u (N,) = tan v: divided by cos v.
+        """Write the basis functions over cos v into rows (count, N), from u (N,) = tan v.
 
-        Where a sum is constant, u = tan(v/2), and the functions are multiplied by 1 + u^2.
+        Rows are sin v F^j and cos v F^j, alternating for j = 0, 1, .... Where a sum is constant, the last row is 1,
+        u = tan(v/2), and the functions are multiplied by 1 + u^2 instead.
         """
         sin, cos = rows[:2]
         square = u * u
@@ -172,7 +173,10 @@ class Hyperbolic:
         return [x * self.inverse ** (j // 2) if j > 1 else x for j, x in enumerate(powers)]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
-        """Write the basis functions at x + low, both (N,), into rows (count, N)."""
+        """Write the functions at x + low, both (N,), into rows (count, N).
+
+        Rows are tanh x W^j and W^j, alternating for j = 0, 1, ..., then, where a sum is doubled, all times sech x.
+        """
         # m = exp|x| - 1 keeps its digits for small and large x; the low word of x is added to first order
         m = np.expm1(np.minimum(np.abs(x), MAX_EXPONENT))
         up = m + WHOLE
@@ -224,7 +228,7 @@ class Linear:
         return [sum_.odd[0], sum_.even[0]]
 
     def fill(self, rows: FloatArray, x: FloatArray, low: FloatArray) -> None:
-        """Write the basis functions at x + low, both (N,), into rows (count, N)."""
+        """Write the functions x and 1, both over max(|x|, 1), at x + low, (N,) each, into rows (2, N)."""
         x = x + low
         size = np.maximum(np.abs(x), 1.0)
         np.divide(x, size, out=rows[0])

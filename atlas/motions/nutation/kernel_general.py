@@ -143,7 +143,7 @@ class GeneralMotion(SymmetricMotion[SingleGeneral]):
         -------
         dict of str to float or ndarray
             The five constants by name: "c3" in 1/time, "E'", "K^2", "c5" and "(M,B')" in 1/time^2. From the inputs each
-            is rounded once; at times each is within some ulp of its largest term.
+            is rounded once; at times, which broadcast with the motions, each is within some ulp of its largest term.
 
         Raises
         ------

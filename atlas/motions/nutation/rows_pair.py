@@ -79,8 +79,9 @@ class SpherePair:
     def _starts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
         """(p^2, p after the first step, p - a after it), each (2, m): starts for integrals of the third kind.
 
-        p^2 is -f near/(4 far): near and far are the distances of the pole from the turning points, see `Sphere`, f the
-        factor of Q in `TurningPoints` at the one farther away. a is the arithmetic mean.
+        Rows are of alpha, then of beta. p^2 is -f near/(4 far): near and far are the distances of the pole from the
+        turning points, see `Sphere`, f the factor of Q in `TurningPoints` at the one farther away. a is the arithmetic
+        mean.
         """
         m, k = self.means, self.sphere
         r, top = m.roots, m.levels[0]
@@ -95,7 +96,10 @@ class SpherePair:
 
     @cached_property
     def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """(Gauss's series of complete integrals of the third kind, exp of the depths |y| of the zeros), each (2, m)."""
+        """(1 + Gauss's series of complete integrals of the third kind, exp of the depths |y| of the zeros).
+
+        Each is (2, m): of alpha, then of beta.
+        """
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
         top = m.levels[0]

@@ -54,7 +54,10 @@ class SingleElliptic(SingleMotion):
         return Omega
 
     def fill_grid(self, start: float, step: float, out: FloatArray) -> None:
-        """Write R at the exact numbers start + i step into ``out`` (count, 3, 3)."""
+        """Write R at the exact numbers start + i step, i = 0, 1, ..., into ``out`` (count, 3, 3).
+
+        Raises AtlasError for times that `rotation` refuses.
+        """
         from atlas.motions.nutation.grid import fill_grid
 
         fill_grid(self, start, step, out)

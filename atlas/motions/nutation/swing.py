@@ -72,7 +72,7 @@ class Swing:
 
     @property
     def is_large(self) -> bool:
-        """Whether `type` is long double, since the angle is too large or too steep for doubles."""
+        """Whether `type` is long double: the angle reaches `MAX_DOUBLE_ANGLE`, or its slope `MAX_DOUBLE_SLOPE`."""
         return self.type is np.longdouble
 
     def _number(self, x: arb | int) -> Any:

@@ -149,7 +149,7 @@ class ParticleMotion(Shown):
         Notes
         -----
         One of `no force`, `electric field alone`, `magnetic field alone`, `parallel fields`, `crossed fields`
-        (orthogonal) and `oblique fields`.
+        (orthogonal) and `oblique fields`. The fields count by their forces: mu = 0 is `no force`.
         """
         return self._of_each_particle("case")
 
@@ -161,7 +161,7 @@ class ParticleMotion(Shown):
         -----
         With the radius a, the frequency omega and the drift V: `prolate trochoid` (with loops, a |omega| > V),
         `cycloid` (equal), `curtate trochoid` (less), `circle` (V = 0), `straight line` (a = 0), `point` (both zero).
-        Without a magnetic force: `parabola`, `straight line` or `point`.
+        Without a magnetic force, mu B = 0: `parabola`, `straight line` or `point`.
         """
         return self._of_each_particle("kind")
 

@@ -155,7 +155,7 @@ def _real(period: Sequence[acb]) -> list[arb]:
 
 
 def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the integer matrix (4, 4) whose rows give the complex conjugates of four periods in terms of them.
+    """Return the array (4, 4) of integers whose rows give the complex conjugates of four periods in terms of them.
 
     Raises NotCertifiedError if the periods are dependent, or the matrix is not integer within a tolerance.
     """
@@ -178,7 +178,7 @@ def _conjugation(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _real_first(conjugation: Whole) -> list[list[int]]:
-    """Return four integer rows: a basis of the lattice whose first two rows span the real periods.
+    """Return a list of four integer rows: a basis of the lattice whose first two rows span the real periods.
 
     ``conjugation`` is that of `_conjugation`. Raises NotCertifiedError unless there are two real periods.
     """
@@ -194,7 +194,7 @@ def _real_first(conjugation: Whole) -> list[list[int]]:
 
 
 def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]:
-    """Return integer weights (2, 2) of the two real periods that make them short and f1, f2 positive.
+    """Return integer weights, two rows of two, of the two real periods that make them short and f1, f2 positive.
 
     The first two of the four ``periods`` are the real ones; ``basis`` (4, 4) is symplectic, in integer rows. It is
     Gauss's reduction by Riemann's form zeta* (Im tau)^-1 zeta; f1, f2 are the frequencies.
@@ -218,9 +218,10 @@ def _shortest(periods: Sequence[Sequence[acb]], basis: Whole) -> list[list[int]]
 
 
 def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
-    """Return the alternating integer form E (4, 4): E(i, j) of the i-th and j-th of four ``periods`` [T_H, T_F, T_c].
+    """Return the alternating form E of four ``periods`` [T_H, T_F, T_c], an array (4, 4) of integers E[i, j].
 
-    Raises NotCertifiedError unless one of type (1, 2) is found.
+    Its sign is left open: `_reduced` chooses the basis for which Im tau is positive. Raises NotCertifiedError unless a
+    form of type (1, 2) is found.
     """
     areas = [periods[i][0] * periods[j][1] - periods[i][1] * periods[j][0] for i, j in PAIRS]
     size = max(abs(complex_of(x)) for x in areas)
@@ -248,7 +249,7 @@ def _polarization(periods: Sequence[Sequence[acb]]) -> Whole:
 
 
 def _symplectic(form: Whole) -> Whole:
-    """Return integer rows (a1, a2, b1, b2), (4, 4), in which an alternating ``form`` (4, 4) has type (1, 2).
+    """Return the array (4, 4) of integer rows a1, a2, b1, b2, in which an alternating ``form`` (4, 4) has type (1, 2).
 
     The method is that of Frobenius.
     """
@@ -276,7 +277,7 @@ def _symplectic(form: Whole) -> Whole:
 
 
 def _reduced(periods: Sequence[Sequence[acb]], basis: Whole) -> Whole:
-    """Return a symplectic basis (4, 4), integer rows, for which no single move makes det Im tau larger.
+    """Return a symplectic basis, an array (4, 4) of integer rows, for which no single move makes det Im tau larger.
 
     ``basis`` is the one to begin with, in terms of the four ``periods``; tau is the Riemann matrix.
     """

@@ -325,8 +325,8 @@ class AsymmetricMotion:
     def elliptic(self) -> EllipticMotion | None:
         """The `EllipticMotion` with this attitude; for a free body, a spin along a field and rest an `EulerTop`.
 
-        An `EulerTop` has the angular momentum in the place of a field. None on a torus, on the discriminant, and for
-        two equal moments in a field.
+        An `EulerTop`, a subclass, has the angular momentum in the place of a field. None on a torus, on the
+        discriminant, and for two equal moments in a field.
         """
         if isinstance(self._motion, EllipticMotion):
             return self._motion
