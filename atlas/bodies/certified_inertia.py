@@ -8,10 +8,10 @@ from atlas.arithmetic.numbers import cross, dot
 
 
 def principal_axes(matrix: Any) -> tuple[list[Any], list[list[Any]]]:
-    """Return (values, axes) of a symmetric matrix (3, 3) of rationals, in balls: three values, ascending, three rows.
+    """Return (values, axes) of a symmetric matrix as lists of balls: three principal values, ascending, three rows.
 
-    The rows are the principal axes, in the order of the values, and a rotation. At least one value is simple: the
-    matrix is no multiple of the unit matrix.
+    The matrix is three rows of three rationals (`fmpq`), and no multiple of the unit matrix. The rows are the principal
+    axes, in the order of the values, and a rotation.
     """
 
     def unit(v: Any) -> list[arb]:

@@ -78,7 +78,7 @@ def system(name: str | System) -> System:
 def charge_to_mass(charge: Any, mass: Any) -> float:
     """Return the charge-to-mass ratio mu = e/m, (89), of either sign, in units of charge over mass.
 
-    ``mass`` is positive: DomainError otherwise.
+    Quantities of pint or astropy are converted to SI. Raises DomainError unless ``mass`` is positive.
     """
     return number(charge, "The charge", CHARGE) / positive(mass, "The mass", MASS)
 

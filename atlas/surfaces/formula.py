@@ -1,4 +1,7 @@
-"""The canonical form of the quadric of initial data, (53) to (57), from I2, I3, B2 and B3."""
+"""The canonical form of the quadric of initial data, (53) to (57), from I2, I3, B2 and B3.
+
+Arguments and results are `fmpq`, `arb` or `DoubleDouble`, not floats.
+"""
 
 from atlas.arithmetic.numbers import Number, root, select
 
@@ -26,7 +29,7 @@ def a3(*inputs: Number) -> Number:
 def semi_axes(I2: Number, I3: Number, B2: Number, B3: Number) -> tuple[Number, Number, Number]:
     """Return the semi-axes C1, C2, C3 of (55), (57), in the unit of B2 and B3, for B2 != 0.
 
-    I2 and I3 are the moments in one unit.
+    I2 and I3 are the moments in one unit. Numbers are `fmpq`, `arb` or `DoubleDouble`, not floats.
     """
     square = abs(I2 - I3) / I2 * B2 * B2
     y, _, smaller, larger = _direction(I2, I3, B2, B3)
