@@ -77,7 +77,10 @@ def point(motion: GeneralMotion, t: FloatArray) -> FloatArray:
 
 
 def dot_path(motion: GeneralMotion, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a motion's dot along its curve at times t (N,)."""
+    """Return identity matrices (N, 2, 2) and the shifts (N, 2) of a motion's dot from t = 0 to times t (N,).
+
+    The shifts are in the coordinates (t, Omega3).
+    """
     return translations(point(motion, t), point(motion, np.zeros(1))[0])
 
 

@@ -78,7 +78,7 @@ def scene(
 def cause(place: int, panel: Space) -> list[Layer]:
     """Return layers in front of the sphere of `panel`: a small body with the cause of its torque.
 
-    By ``place``, from 0, these are charges, charges outside, the weight, or the induced moment.
+    By ``place``, 0 to 3, these are charges inside the body, charges outside, the weight, or the induced moment.
     """
     right, up, toward = frame(panel)
 

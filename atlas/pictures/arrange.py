@@ -154,8 +154,9 @@ def _fitted(
 ) -> Arrangement:
     """Return the arrangement of panels in `columns` columns, in a room (width, height) in millimetres.
 
-    `before` is (width, height) of a panel in the original scene. Rows too high for the room are lowered together. Where
-    panels become narrower than before, a legend next to a panel is replaced by labels at its layers.
+    `before` is (width, height) of a panel in the original scene. Rows too high for the room are lowered by one factor,
+    except for their words. Where panels become narrower than before, a legend next to a panel is replaced by labels
+    at its layers.
     """
     wide = room[0] / columns
     image_width = wide - _BAR if any(map(_has_bar, panels)) else wide

@@ -19,7 +19,7 @@ def tex(value: float) -> str:
 
 
 def tex_equals(value: float) -> str:
-    r"""Return r"=0.5", or r"\approx 0.658824" where six digits are not the whole number, for a formula in TeX."""
+    r"""Return a sign and the number by `tex`: r"=0.5", or r"\approx 0.658824" where six digits are not enough."""
     return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
 
 

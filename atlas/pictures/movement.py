@@ -13,7 +13,10 @@ SEAM = 0.01
 
 
 def scene_at(scene: Scene, t: float) -> Scene:
-    """Return a copy of a scene whose layers that ride on a path are moved to the time t of that path."""
+    """Return a copy of a scene whose layers that ride on a path are moved to the time t of that path.
+
+    A path is a function of any time, see `Path`. Panels for a narrow screen are moved too; other layers stay.
+    """
     moves = {name: tuple(values[0] for values in path(np.array([t]))) for name, path in scene.paths.items()}
 
     def advanced(layers: tuple[Layer, ...]) -> tuple[Layer, ...]:

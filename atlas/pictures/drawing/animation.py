@@ -240,8 +240,8 @@ def of_motion(motion: Any, times: Sequence[float] | None = None, **options: Any)
 def _in_time(scene: Scene, recipe: recipes.Recipe, times: Sequence[float] | None) -> tuple[Callable[[int], Scene], int]:
     """Return (function of k that makes the scene of frame k, number of frames) of a scene with paths.
 
-    `times` are those of the frames, by default `FRAMES` equal steps over the scene's duration; `recipe` is for the
-    message. Raises AtlasError for a scene without paths.
+    `times` are those of the frames, by default `FRAMES` equal steps from 0 to the scene's `lasts`, which is left out;
+    `recipe` is for the message. Raises AtlasError for a scene without paths.
     """
     if not scene.paths:
         raise AtlasError(
