@@ -22,7 +22,7 @@ _PAGE = re.compile(r"#[ \t]+(.*)")
 
 
 class LineError(AtlasError):
-    """A sentence about a line of the file, which the field `line` counts from 1."""
+    """Error LineError(line, sentence) about a line of the file; the field `line`, not in the text, counts from 1."""
 
     def __init__(self, line: int, sentence: str) -> None:
         super().__init__(sentence)

@@ -70,9 +70,9 @@ def faults_of(raw: Any, kind: Any, place: str = "") -> Iterator[SchemaError]:
 
 
 def _faults(raw: Any, kind: inspect.Type, place: str, key: str) -> Iterator[SchemaError]:
-    """Yield a SchemaError for each innermost value in `raw` that does not have the type `kind`.
+    """Yield a SchemaError for each innermost fault of `raw`: a value not of the type `kind`, an unknown or missing key.
 
-    `place` says in words where the value stands, and `key` is its key.
+    `kind` is a type of `msgspec.inspect`. `place` says in words where the value stands, and `key` is its key.
     """
     match kind:
         case inspect.UnionType():

@@ -74,7 +74,7 @@ def index_of(rows: Sequence[Row], table: str, command: str) -> dict[str, str]:
 
 
 def link_to(row: Row) -> str:
-    """Return a Markdown link to the report of a row, with its title as the words."""
+    """Return "[title](name/index.html)", the Markdown link from the index to a row's report, markup escaped."""
     return f"[{as_words(row.title)}]({row.name}/index.html)"
 
 

@@ -472,7 +472,7 @@ def report_request(family: Family, options: dict[str, Any]) -> "ReportRequest":
 
 
 def _deviations(family: Family, options: dict[str, Any]) -> tuple[list[list[str]], list[str]]:
-    """Return rows of four texts, quantity, symbol, value with deviation, unit, and a list of notes on them.
+    """Return rows of four texts, quantity, symbol as Markdown, value as "12.57(31)", unit, and a list of notes on them.
 
     `options` are the command's, by name, with uncertain numbers among them.
     """

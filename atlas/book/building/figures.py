@@ -136,7 +136,11 @@ def find(figures: Sequence[FigureBuild], cache: Cache, sources: Sources, gl: str
 
 
 def _why(figure: FigureBuild, cache: Cache) -> str:
-    """Return why a figure must be drawn, in words: changed parts, a missing file, changed inputs, or never drawn."""
+    """Return why a figure without all its files must be drawn, as words.
+
+    These are "changed: PARTS", "a file of it was not there, or damaged" where no part changed, and, for a figure
+    without a record, "changed inputs: NAMES" or "it was never drawn here".
+    """
     if before := cache.load(figure.name):
         changed = [name for name, value in figure.parts.items() if before.get(name) != value]
         return f"changed: {', '.join(changed)}" if changed else "a file of it was not there, or damaged"

@@ -89,8 +89,9 @@ def picture(subject: Subject, values: Mapping[str, float], kind: str) -> bytes:
 def _numbers(subject: OfFamily, values: Mapping[str, float], *, proven: bool) -> Iterator[dict[str, str]]:
     """Yield for each quantity a dict of texts: name, says, value, sure (its certainty) and unit.
 
-    Values come from balls where `proven` and available, else from doubles; a slow one is "" in doubles. The value is
-    "none", with the reason in "sure", where the quantity is not defined.
+    `values` are those of all sliders by name; "name" is the quantity's letter. Values come from balls where `proven`
+    and available, else from doubles; a slow one is "" in doubles. The value is "none", with the reason in "sure", where
+    the quantity is not defined.
     """
     family, kernels = subject.family, subject.kernels(values)
     case = family.case(kernels)
