@@ -19,7 +19,7 @@ def tex(value: float) -> str:
 
 
 def tex_equals(value: float) -> str:
-    r"""Return a sign and the number by `tex`: r"=0.5", or r"\approx 0.658824" where six digits are not enough."""
+    r"""Return "=" or r"\approx" and the number by `tex`: r"=0.5", or r"\approx 0.658824" if six digits are too few."""
     return f"={tex(value)}" if float(f"{value:.{DIGITS}g}") == value else rf"\approx {tex(value)}"
 
 
