@@ -63,7 +63,7 @@ def opened_table(
         the line of names, and for commas that may be of decimals or of thousands.
     """
     if path.is_dir():
-        raise AtlasError(f"{path.name} is a folder; a table is a file, or the folder x.parquet of a sweep.")
+        raise AtlasError(f"{path.name or path} is a folder; a table is a file, or the folder x.parquet of a sweep.")
     with path.open("rb") as raw:  # once: a pipe can't be opened again
         encoding = "utf-16" if raw.peek(2)[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
         file, separator = TextIOWrapper(raw, encoding=encoding, errors="atlas-latin-1", newline=None), ""

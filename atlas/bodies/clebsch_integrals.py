@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.arithmetic.annotations import BodyLike, FloatOrArray, RealArrayLike
 from atlas.arithmetic.double_double import over
-from atlas.arithmetic.inputs import FloatArray, common_shape, plain, vectors
+from atlas.arithmetic.inputs import FloatArray, common_shape, plain, real, vectors
 from atlas.bodies import formula_integrals as formulas
 from atlas.bodies.body import SymmetricBody
 from atlas.bodies.inertia import inertia_tensor
@@ -100,7 +100,7 @@ def body_tensor(inertia: Any) -> FloatArray:
 
     Of a ratio it is (1, 1, I). Raises DomainError for a tensor that no body has.
     """
-    if isinstance(inertia, SymmetricBody) or np.ndim(inertia) == 0:
+    if isinstance(inertia, SymmetricBody) or not np.ndim(real(inertia, "The inertia tensor")):
         I2, I3 = map(float, moments_of_one(inertia))
         inertia = (I2, I2, I3)
     return inertia_tensor(inertia)

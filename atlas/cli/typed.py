@@ -226,7 +226,7 @@ class Real(click.ParamType):  # type: ignore[type-arg]  # which takes one since 
         number: Typed
         number, size, scale = (self._single(x, param, ctx) for x in (match["size"] + ending, sigma, f"1{ending}"))
         number.sigma = float(size) * float(scale)
-        number.text = text
+        number.text = text if number.sigma else number.text
         return number
 
 

@@ -296,7 +296,7 @@ class Motion(Shown, Generic[Single]):
         R = self.rotation(t)
         try:
             angles = Rotations.from_matrix(R.reshape(-1, 3, 3)).as_euler(seq, degrees=degrees)
-        except ValueError as error:
+        except (TypeError, ValueError) as error:
             raise AtlasError(f"seq is three letters of X, Y, Z or of x, y, z, not {seq!r}: {error}") from error
         return np.asarray(angles.reshape(*R.shape[:-2], 3))
 
@@ -326,8 +326,9 @@ class Motion(Shown, Generic[Single]):
 
         Values are vectors (..., 3) for ``rank`` 1, matrices (..., 3, 3) for rank 2, and are changed in place.
         """
-        exact = self._placement is None and self._is_exact_at_zero
-        return values if exact or np.all(bare(t, "The time", TIME)) else Placement.started(values, start(), rank, t)
+        if (self._placement is None and self._is_exact_at_zero) or np.asarray(bare(t, "The time", TIME)).all():
+            return values
+        return Placement.started(values, start(), rank, t)
 
     def _omega_at_zero(self) -> FloatArray:
         """Angular velocity at t = 0 along the body's axes as it was given, shape (..., 3), in rad/time."""

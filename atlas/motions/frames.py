@@ -90,7 +90,7 @@ class Placement:
 
         Values are vectors (..., 3) for ``rank`` 1, matrices (..., 3, 3) for rank 2; start broadcasts to them.
         """
-        is_start = np.equal(bare(t, "The time", TIME), 0)
+        is_start = np.equal(np.asarray(bare(t, "The time", TIME)), 0)
         if is_start.any():
             is_start = np.broadcast_to(is_start, values.shape[:-rank])
             np.copyto(values, start, where=is_start.reshape(is_start.shape + (1,) * rank))

@@ -146,7 +146,7 @@ def spectrum(motion: Any, quantity: str, least: float) -> Spectrum:
 
     Raises AtlasError for an array of motions, another name, and ``least`` outside [`MIN_AMPLITUDE`, 1).
     """
-    if quantity not in get_args(SpectrumOf):
+    if not isinstance(quantity, str) or quantity not in get_args(SpectrumOf):
         raise AtlasError(f"A motion has no spectrum of {quantity!r}: choose from {', '.join(get_args(SpectrumOf))}.")
     if motion.shape:
         raise AtlasError(f"A spectrum is that of one motion, not of an array of them, of shape {motion.shape}.")

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
+from os import PathLike
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, get_type_hints
@@ -103,8 +104,9 @@ def names() -> list[str]:
     return sorted(path.stem for path in folder("figures").glob("*.py") if not path.stem.startswith("_"))
 
 
-def source(name: str) -> Path:
+def source(name: str | PathLike[str]) -> Path:
     """Return the path of a recipe, a name in figures/ or a file NAME.py. Raises AtlasError if there is none."""
+    name = str(name)
     if name.endswith(".py"):
         file = Path(name)
         if not file.is_file():
@@ -118,7 +120,7 @@ def source(name: str) -> Path:
     return file
 
 
-def load(name: str) -> Recipe:
+def load(name: str | PathLike[str]) -> Recipe:
     """Return the `Recipe` of a name or file; its file is read, not run. Cached until the file changes."""
     file = source(name)
     return _load(file, _stamp(file))

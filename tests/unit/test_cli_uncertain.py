@@ -204,3 +204,9 @@ def test_the_basis_nearest_to_equal_frequencies_is_a_basis() -> None:
     f1, f2, _ = in_basis_near([2.0, root, 0.1], [root, root, 0.1])
     assert f1 != f2
     assert {round(x, 12) for x in (f1, f2)} <= {round(a * 2.0 + b * root, 12) for a in (-1, 0, 1) for b in (-1, 0, 1)}
+
+
+def test_a_deviation_of_zero_is_none() -> None:
+    """A number typed as 1.5(0) is 1.5."""
+    words = "motion --ratio {} --field 1 2 --omega2 0.7 --times 1"
+    assert run(words.format("1.5(0)")) == run(words.format("1.5"))

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import atlas
@@ -117,8 +118,6 @@ def test_unordered_or_named_collections_are_refused_as_vectors(value: Any) -> No
 @pytest.mark.slow
 def test_a_series_is_its_values_and_a_table_no_vector() -> None:
     """Whatever its index."""
-    import pandas as pd
-
     with pytest.raises(AtlasError):
         atlas.ElementaryMotion(1.5, pd.DataFrame(np.eye(2)), 0.7)
     assert atlas.ElementaryMotion(1.5, pd.Series([1.0, 2.0], index=[7, 3]), 0.7).field == (1.0, 2.0)
@@ -166,3 +165,11 @@ def test_a_boolean_is_refused_as_a_column() -> None:
     """A truth value is not taken for the first column."""
     with pytest.raises(AtlasError, match="columns of R are 1, 2 and 3, not True"):
         atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2)).column(True, 0.0)
+
+
+def test_a_data_frame_of_times_has_a_value_for_each() -> None:
+    """Also of quaternions in given axes, which have a sign at t = 0."""
+    times = pd.DataFrame({"a": [0.0, 1.0], "b": [2.0, 3.0]})
+    motion = atlas.motion(1.5, (0.2, 1.0, 0.6), (0.3, 0.7, 0.2))
+    assert np.array_equal(motion.quaternion(times), motion.quaternion(times.to_numpy()))
+    assert np.array_equal(motion.angular_velocity(times), motion.angular_velocity(times.to_numpy()))

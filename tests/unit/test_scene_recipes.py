@@ -68,6 +68,7 @@ def test_parameters_may_be_named_or_in_order(folder: Path, star: str) -> None:
     (folder / "own.py").write_text(text, encoding="utf-8")
     size = {"size": 1.0} if "size" in star else {}
     assert recipes.load("own").parameters == size | {"ratio": 1.5, "field": (1.0, 2.0)}
+    assert recipes.load(folder / "own.py") == recipes.load("own")
 
 
 def test_a_default_that_must_be_computed_is_refused(folder: Path) -> None:

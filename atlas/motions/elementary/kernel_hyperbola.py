@@ -392,7 +392,7 @@ class Hyperbola(Shown):
         AtlasError
             For fewer than two or more than 10^8 points, and for values of s on a line.
         """
-        points = points if isinstance(points, int) else plain(real(points, "The points"))
+        points = points if isinstance(points, int) and points <= MAX_POINTS else plain(real(points, "The points"))
         if np.ndim(points) == 0 and points > MAX_POINTS:
             raise AtlasError(f"The number of points must be at most {MAX_POINTS}, not {points:g}.")
         with workprec():

@@ -3,6 +3,7 @@
 The libraries that draw are loaded by the first call.
 """
 
+from os import PathLike
 from typing import TYPE_CHECKING
 
 from atlas.arithmetic.annotations import StyleLike
@@ -12,13 +13,15 @@ if TYPE_CHECKING:
     from pyvista import Plotter
 
 
-def figure(name: str, style: StyleLike = None, target: str | None = None, **parameters: object) -> "Figure":
+def figure(
+    name: str | PathLike[str], style: StyleLike = None, target: str | None = None, **parameters: object
+) -> "Figure":
     """Matplotlib figure of a recipe in figures/.
 
     Parameters
     ----------
-    name : str
-        Name of the recipe.
+    name : str or PathLike
+        Name of the recipe, or a file NAME.py of your own.
     style : str or dict or list, optional
         Matplotlib style on top of the package's own; a list that begins with "default" replaces the package's.
     target : str, optional
@@ -47,13 +50,13 @@ def figure(name: str, style: StyleLike = None, target: str | None = None, **para
     return to_figure(recipes.load(name).scene(**parameters), style, target=place)
 
 
-def plotter(name: str, *, off_screen: bool = True, **parameters: object) -> "Plotter":
+def plotter(name: str | PathLike[str], *, off_screen: bool = True, **parameters: object) -> "Plotter":
     """PyVista plotter of the panels in space of a recipe in figures/.
 
     Parameters
     ----------
-    name : str
-        Name of the recipe.
+    name : str or PathLike
+        Name of the recipe, or a file NAME.py of your own.
     off_screen : bool
         False for a window, opened by ``show``.
     **parameters

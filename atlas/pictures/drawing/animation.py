@@ -3,6 +3,7 @@
 from base64 import b64encode
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from os import PathLike
 from pathlib import Path
 from subprocess import CalledProcessError
 from tempfile import TemporaryDirectory
@@ -149,7 +150,7 @@ def animation(
 
 
 def animate(
-    name: str,
+    name: str | PathLike[str],
     over: str = "t",
     values: Sequence[Any] | None = None,
     *,
@@ -162,8 +163,8 @@ def animate(
 
     Parameters
     ----------
-    name : str
-        Name of the recipe.
+    name : str or PathLike
+        Name of the recipe, or a file NAME.py of your own.
     over : str
         Parameter that varies, "t" for the time of a figure with a motion.
     values : sequence, optional
