@@ -6,7 +6,6 @@ from math import isfinite
 from numbers import Rational
 from typing import Any, TypeAlias
 
-import numpy as np
 from flint import arb, fmpq
 
 from atlas.arithmetic.numbers import as_rational
@@ -27,8 +26,8 @@ def rational(value: Any, name: str) -> fmpq:
         return value
     if type(value) is float and isfinite(value):
         return fmpq(*value.as_integer_ratio())
-    value = value[()] if isinstance(value, np.ndarray) and not value.ndim else value
-    if isinstance(value, bool | np.bool_ | bytes):
+    value = value.item() if hasattr(value, "dtype") and not value.ndim else value  # of NumPy, without axes
+    if isinstance(value, bool | bytes):
         raise AtlasError(f"{name} must be a real number, not {value}.")
     if isinstance(value, arb) and value.is_finite() and not value.is_exact():
         raise AtlasError(f"{name} must be one number, not the ball {value}: give an exact one, such as its midpoint.")
