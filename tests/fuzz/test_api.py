@@ -59,7 +59,9 @@ def at_times(t: Any) -> dict[str, Any]:
 @pytest.mark.slow
 @share(0.1, 60)
 @given(bodies, pairs, arrays(numbers), st.none() | arrays(numbers), times, st.floats(-10, 10), st.integers(0, 9))
-def test_elementary_motion(I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int) -> None:
+def test_any_elementary_motion_answers_or_refuses(
+    I: Any, field: Any, omega2: Any, omega3: Any, t: Any, step: float, count: int
+) -> None:
     """All that an elementary motion answers."""
     check_answers(
         lambda: atlas.ElementaryMotion(I, field, omega2, omega3),
@@ -91,7 +93,7 @@ def families(draw: Any) -> tuple[str, list[Any]]:
 @pytest.mark.slow
 @share(0.1, 60)
 @given(families(), times)
-def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
+def test_any_member_of_a_family_answers_or_refuses(case: tuple[str, list[Any]], t: Any) -> None:
     """All that the register lists of a motion or surface, and a grid of its matrices."""
     family, arguments = FAMILIES[case[0]], case[1]
     functions = {s.name: lambda m, s=s: s.method_of(m)(t) for s in family.sampled}
@@ -102,7 +104,7 @@ def test_any_family(case: tuple[str, list[Any]], t: Any) -> None:
 @pytest.mark.slow
 @share(0.1, 40)
 @given(bodies, pairs, vectors)
-def test_quadric(I: Any, field: Any, omega: Any) -> None:
+def test_any_quadric_answers_or_refuses(I: Any, field: Any, omega: Any) -> None:
     """All that a quadric answers."""
     check_answers(
         lambda: atlas.Quadric(I, field),
@@ -114,7 +116,7 @@ def test_quadric(I: Any, field: Any, omega: Any) -> None:
 @pytest.mark.slow
 @share(0.1, 40)
 @given(bodies, st.tuples(numbers, numbers), arrays(numbers), st.sampled_from([2, 3, 7, 1, 0, 2.5, [0.0, 1.0], [800.0]]))
-def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
+def test_any_hyperbola_answers_or_refuses(I: Any, field: Any, omega2: Any, points: Any) -> None:
     """All that a hyperbola answers."""
     check_answers(
         lambda: atlas.Hyperbola(I, field),
@@ -131,7 +133,7 @@ def test_hyperbola(I: Any, field: Any, omega2: Any, points: Any) -> None:
 @pytest.mark.slow
 @share(0.1, 40)
 @given(arrays(numbers), arrays(numbers), pairs, times)
-def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
+def test_any_ball_motion_answers_or_refuses(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
     """All that a ball answers."""
     check_answers(
         lambda: atlas.BallMotion(inertia, larmor, momentum),
@@ -147,7 +149,7 @@ def test_ball_motion(inertia: Any, larmor: Any, momentum: Any, t: Any) -> None:
 @pytest.mark.slow
 @share(0.1, 40)
 @given(arrays(numbers), vectors, vectors, vectors, vectors, st.one_of(st.just(1.0), numbers), times)
-def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any) -> None:
+def test_any_particle_motion_answers_or_refuses(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any) -> None:
     """All that a particle answers."""
     check_answers(
         lambda: atlas.ParticleMotion(mu, E, B, y, v, c),
@@ -162,7 +164,7 @@ def test_particle_motion(mu: Any, E: Any, B: Any, y: Any, v: Any, c: Any, t: Any
 
 @share(0.1, 40)
 @given(bodies, pairs, vectors, vectors, arrays(numbers))
-def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any) -> None:
+def test_any_integrals_and_cubic_answer_or_refuse(I: Any, field: Any, omega: Any, K: Any, u: Any) -> None:
     """The integrals of a state, the cubic and the quartic."""
     answered(lambda: list(vars(integrals.integrals(I, omega, K)).values()))
     check_answers(
@@ -179,7 +181,7 @@ def test_integrals_and_the_cubic(I: Any, field: Any, omega: Any, K: Any, u: Any)
 
 @share(0.05, 40)
 @given(vectors, vectors, numbers, numbers, vectors)
-def test_fields_and_frames(B: Any, E: Any, mu: float, c: float, axis: Any) -> None:
+def test_any_field_and_frame_answer_or_refuse(B: Any, E: Any, mu: float, c: float, axis: Any) -> None:
     """A field, its frame, and its conversions by units."""
     check_answers(
         lambda: atlas.Field(B, E, mu, c),
@@ -196,7 +198,7 @@ def test_fields_and_frames(B: Any, E: Any, mu: float, c: float, axis: Any) -> No
 
 @share(0.05, 40)
 @given(vectors, vectors, numbers, numbers, numbers)
-def test_bodies(diagonal: Any, masses: Any, mass: float, radius: float, height: float) -> None:
+def test_any_body_answers_or_refuses(diagonal: Any, masses: Any, mass: float, radius: float, height: float) -> None:
     """Bodies by their shapes, their matrices, their points."""
     for make in (atlas.SymmetricBody.ring, atlas.SymmetricBody.disk, atlas.SymmetricBody.sphere):
         answered(lambda make=make: [make(mass, radius).I2, make(mass, radius).I3])

@@ -39,7 +39,7 @@ OPTIONS = {
 WORDS = st.one_of(number, st.sampled_from(["gif", "svg", "pdf", "turns=2.5", "turns=1e400", "x=1", "99999", "-1", "2"]))
 
 
-def test_every_builder_is_drawn() -> None:
+def test_every_builder_is_fuzzed() -> None:
     """A command that writes is drawn here, or has a file of its own in this folder."""
     assert set(LINES) - set(BASES) == BUILDERS - {"report", "sweep"}
 

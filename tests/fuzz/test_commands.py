@@ -112,7 +112,7 @@ def test_a_command_that_never_ends_is_noticed(monkeypatch: pytest.MonkeyPatch) -
         ran(["list"])
 
 
-def test_every_command_is_drawn() -> None:
+def test_every_command_is_fuzzed() -> None:
     """A new command joins by itself if it is a family's, and is named here else."""
     assert set(BASES) == set(COMMANDS)
     assert all(EXAMPLES.values())

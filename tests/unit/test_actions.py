@@ -113,7 +113,7 @@ def test_motions_without_drift_are_refused() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("exponent", [-565, 510])
-def test_actions_and_lines_in_any_unit_of_time(exponent: int) -> None:
+def test_actions_and_lines_do_not_depend_on_the_unit_of_time(exponent: int) -> None:
     """Where squares of the rates are no floats actions and lines are those of another unit, times its power of two."""
     rates = (0.3, 0.7, 0.2), (0.2, 1.0, 0.6)
 

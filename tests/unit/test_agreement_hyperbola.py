@@ -120,8 +120,8 @@ def test_the_hyperbola_agrees_with_the_ledger(tie: Tie, floor: str) -> None:
     agree(tie, floor)
 
 
-def test_a_wrong_sign_in_the_ledger_is_noticed_on_both_floors(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both floors notice (omega2 - 2 B2) for (omega2 + 2 B2) in the tried form of (72)."""
+def test_a_wrong_sign_in_the_ledger_is_noticed_in_doubles_and_in_balls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Doubles and balls notice (omega2 - 2 B2) for (omega2 + 2 B2) in the tried form of (72)."""
     trial_right = formula.trial("(72)")
     trial_wrong = dataclasses.replace(trial_right, tex=EQUATIONS["(72)"].tex.replace("+2B", "-2B"))
     assert trial_wrong.printed != trial_right.printed

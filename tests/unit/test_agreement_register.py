@@ -231,7 +231,7 @@ def test_registered_quantities_exist() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("floor", FLOORS)
-def test_a_new_kernel_is_noticed(floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_new_public_property_counts_as_a_quantity(floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """One more public property is one more quantity."""
     before = quantities(floor)
     monkeypatch.setattr(Floor(floor).Quadric, "volume", property(lambda _: 1.0), raising=False)
@@ -241,7 +241,9 @@ def test_a_new_kernel_is_noticed(floor: str, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("tie", "floor"), [pytest.param(tie, floor, id=f"{floor} {tie}") for tie in TIES for floor in tie.floors]
 )
-def test_a_quantity_under_the_wrong_sign_is_noticed(tie: Tie, floor: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_tie_fails_for_a_quantity_of_the_opposite_sign(
+    tie: Tie, floor: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Every tie reads the quantity that it is named after, and cannot do with its opposite: a body even less."""
     negate(monkeypatch, tie.quantity, floor)
     with pytest.raises((AssertionError, DomainError)):

@@ -28,7 +28,7 @@ def layers(scene: atlas.pictures.Scene, kind: type[Any]) -> list[Any]:
     return [layer for panel in scene.panels for layer in panel.layers if isinstance(layer, kind)]
 
 
-def test_the_bodies_of_the_film_strip_go_on_in_turn() -> None:
+def test_each_body_of_the_film_strip_moves_to_the_place_of_the_next() -> None:
     """A step later each stands as the next was drawn, in the wide and the narrow figure, and none is a start still."""
     scene = recipes.load("film_strip").scene()
     later = movement.scene_at(scene, scene.lasts / 7)
@@ -241,7 +241,7 @@ def run(words: str, folder: Path) -> Any:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["gif", "apng"])
-def test_a_file_has_the_frames(tmp_path: Path, kind: str) -> None:
+def test_a_file_has_as_many_frames_as_requested(tmp_path: Path, kind: str) -> None:
     """So many frames as asked for, which differ, and nothing else in the folder."""
     done = run(f"cone --over azimuth=0:80:3 --fps 10 --format {kind}", tmp_path)
     assert done.output == f"{tmp_path / f'cone.{kind}'}\n"
@@ -305,7 +305,7 @@ def test_animate_draws_the_body_at_its_position(tmp_path: Path) -> None:
         ElementaryMotion(1.5, (1.0, 2.0), [0.1, 0.2]).animate()
 
 
-def test_upwards_is_the_direction_or_the_field_or_the_momentum() -> None:
+def test_the_upward_direction_is_the_given_one_or_the_field_or_the_momentum() -> None:
     """Of a free body, I2 = 1 across the axis, whichever way it turns; of a body at rest the axis itself."""
     upright = Upright.of_motion(atlas.FreeMotion(1.5, (0.3, -0.7, 0.2)))
     np.testing.assert_allclose(upright.vector, (0.3, -0.7, 0.2 * 1.5), rtol=1e-15)

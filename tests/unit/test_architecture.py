@@ -45,7 +45,7 @@ def test_no_module_has_a_public_name() -> None:
 @pytest.mark.parametrize(
     "module", ["atlas.fitting", "atlas.checking.check", "atlas.sweeps.run", "atlas.pictures.drawing"]
 )
-def test_a_public_function_is_one_whatever_is_imported_first(module: str) -> None:
+def test_no_import_order_replaces_a_public_function_by_a_module(module: str) -> None:
     """The functions of the package, after the modules that hold them, and these after the functions."""
     names = "fit, check, sweep, figure, plotter, animate, motion, simulate, drift, monodromy, clebsch"
     code = f"import {module}, atlas; from atlas import {names}; import {module}\n" + "".join(
@@ -72,7 +72,7 @@ def names_compared(code: str) -> list[str]:
 
 
 @pytest.mark.slow
-def test_no_name_of_a_family_is_tested_outside_its_folder() -> None:
+def test_no_code_outside_its_folder_asks_for_the_name_of_a_family() -> None:
     """Code asks for a property of a family in its line in the register."""
     assert names_compared("motion.family == 'top'")
     assert names_compared("args[:1] == ['asymmetric']")

@@ -103,7 +103,7 @@ def state_of(motion: Any, t: Any) -> list[Any]:
     return [motion.rotation(t), motion.angular_velocity(t), motion.field_in_body(t)]
 
 
-def test_the_series_about_zero_is_the_flow(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_series_about_zero_agrees_with_taylor_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """At the end of its reach it agrees with the steps of Taylor's series, to 200 digits as to twenty."""
     t = fmpq(1, 1 << 18)
     for bits in (100, 800):
@@ -188,7 +188,7 @@ def test_axes_may_come_in_any_order(order: tuple[int, ...]) -> None:
 
 
 @pytest.mark.slow
-def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
+def test_two_equal_moments_give_the_symmetric_motion_which_others_approach() -> None:
     """Two equal moments, in any place, give the general motion; R(30) for I2 = I1 (1 + 2^-n) tends to it as 2^-n."""
     moments, field, omega = (1, 1, fmpq(3, 2)), (fmpq(1, 5), 1, fmpq(3, 5)), (fmpq(3, 10), fmpq(7, 10), fmpq(1, 5))
     with ctx.workprec(110):
@@ -221,7 +221,7 @@ def test_the_symmetric_body_is_exact_and_the_limit_of_others() -> None:
         ((BODY, FIELD, OMEGA), "on a torus"),
     ],
 )
-def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: str) -> None:
+def test_each_kind_has_its_name_and_agrees_with_an_integration(case: tuple[Any, ...], kind: str) -> None:
     """R(5) of each case holds an integration of (12), (16) to 25 digits; Omega too."""
     motion = Balls(*case)
     assert motion.kind == kind
@@ -232,7 +232,7 @@ def test_each_kind_has_its_name_and_is_the_motion(case: tuple[Any, ...], kind: s
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
-def test_a_free_spin_about_a_principal_axis_is_a_turn(axis: int) -> None:
+def test_a_free_spin_about_a_principal_axis_is_a_uniform_rotation(axis: int) -> None:
     """About the middle one, too, from which all neighbours depart."""
     e, t = np.eye(3)[axis], np.linspace(0, 12 * np.pi, 50)
     motion = atlas.AsymmetricMotion((0.8, 1.0, 1.3), (0, 0, 0), tuple(e))
@@ -453,7 +453,7 @@ class Fake:
         (Fake(None, 1e-13), float("nan"), [2.65, -30.85, 1.45e5, -4.05e11], "^certified at each time: .* by nan"),
     ],
 )
-def test_a_closed_form_is_held_against_the_twin(
+def test_a_closed_form_is_compared_with_the_certified_twin(
     fake: Fake, difference: float, times: list[float], words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """At the last time alone where it is proved, else at four; within its bound and 1e-14, or it is not taken."""
@@ -492,7 +492,7 @@ def test_a_grid_through_zero_is_the_identity_there() -> None:
             assert (np.eye(3) == R).all() == (t == 0.0)
 
 
-def test_a_body_at_rest_has_the_unit_rate() -> None:
+def test_the_largest_rate_of_a_body_at_rest_counts_as_one() -> None:
     """Where nothing turns no rate is the largest; else it is, of field and omega, in size."""
     assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, 0, 0), (0, 0, 0))).size == 1.0
     assert kernels.SingleAsymmetric(Balls((0.8, 1.0, 1.3), (0, -3, 1), (2, 0, 0))).size == 3.0
@@ -530,7 +530,7 @@ def test_a_free_body_is_made_of_jacobis_functions(name: str) -> None:
 @pytest.mark.parametrize(
     ("inertia", "field", "omega"), [((0.5, 1, 1.25), (0, 0, 2), (0, 0, 0.3)), (BODY, (0, 0, 0), OMEGA)]
 )
-def test_balls_and_jacobis_functions_meet_for_any_time(inertia: Any, field: Any, omega: Any) -> None:
+def test_balls_and_jacobis_functions_agree_at_any_time(inertia: Any, field: Any, omega: Any) -> None:
     """A spin along the field, and a free body at times up to a trillion: as the certified twin has them."""
     single = kernels.SingleAsymmetric(Balls(inertia, field, omega))
     times = np.array([0.0, -7.5, 1e6, -1e12])

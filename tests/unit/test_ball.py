@@ -59,7 +59,7 @@ def test_the_ball_solves_the_equations_of_motion() -> None:
 
 @settings(max_examples=40)
 @given(st.floats(0.1, 5), st.floats(-3, 3), st.floats(-3, 3), st.floats(-1e6, 1e6))
-def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: float, t: float) -> None:
+def test_a_momentum_along_the_field_gives_a_single_rotation(I0: float, alpha: float, m3: float, t: float) -> None:
     """For m2 = 0, R is the turn about e3 with frequency m3/I0, (30)."""
     with mp.workdps(50):
         angle = mpf(m3) / mpf(I0) * mpf(t)
@@ -68,7 +68,7 @@ def test_along_the_field_the_two_turns_are_one(I0: float, alpha: float, m3: floa
     assert np.abs(BallMotion(I0, alpha, (0.0, m3)).rotation(t) - true).max() <= 4 * ULP1
 
 
-def test_the_field_in_the_body_turns_against_the_ball() -> None:
+def test_the_field_in_the_body_is_the_transposed_matrix_times_the_field() -> None:
     """K = R^T B' of (32), for arrays of balls at several times; so the spectrum of a ball has that of its field."""
     larmor, t = np.array([0.5, -2.0]), np.linspace(-3, 3, 7)[:, None]
     balls = BallMotion(2.0, larmor, (0.3, -0.4))
@@ -76,7 +76,7 @@ def test_the_field_in_the_body_turns_against_the_ball() -> None:
     assert np.abs(balls.field_in_body(t) - true).max() <= 4 * ULP1
 
 
-def test_where_equation_29_is_undefined_the_ball_turns_back_with_the_field() -> None:
+def test_where_equation_29_is_undefined_the_ball_turns_about_the_field() -> None:
     """At m2 = 0, m3 = -alpha I0, where (29) is 0/0, gamma = 0 and R = R_z(-alpha t)."""
     ball = BallMotion(2.0, 0.5, (0.0, -1.0))
     assert (ball.gamma, ball.k_hat) == (0.0, (0.0, -1.0))
@@ -94,7 +94,7 @@ def test_the_small_third_column_keeps_its_digits() -> None:
             assert abs(mpf(float(R[i, 2])) - true[i, 2]) <= 8 * float(np.spacing(abs(float(true[i, 2]))))
 
 
-def test_rates_and_momenta_know_no_unit() -> None:
+def test_a_ball_does_not_depend_on_the_unit_of_its_momentum() -> None:
     """In arrays too, gamma grows with their unit, a power of two, and the axis does not change, to the last bit."""
     unit = 2.0 ** np.array([-900.0, 0.0, 900.0])
     balls, ball_alone = BallMotion(2.0, 0.5 * unit, (0.3 * unit, -0.4 * unit)), BallMotion(2.0, 0.5, (0.3, -0.4))

@@ -83,7 +83,7 @@ def test_moments_of_a_shape_agree_with_those_of_its_points(
     assert abs(cloud.I3 - shape.I3) <= 16 * EPS * shape.I3
 
 
-def test_every_shape_is_cut_into_rings_here() -> None:
+def test_every_shape_is_compared_with_its_points() -> None:
     """No shape of the registry is left without the test above."""
     assert {name for name, *_ in rings_of_the_shapes()} == set(SHAPES)
 
@@ -102,7 +102,7 @@ def test_a_shell_of_height_radius_root_six_is_as_round_as_a_ball(radius: float, 
     assert SymmetricBody.cylindrical_shell(mass, radius, radius * 6**0.5).ratio == pytest.approx(1, abs=4 * EPS)
 
 
-def test_a_shell_grows_from_loop_to_rod() -> None:
+def test_the_ratio_of_a_solenoid_falls_with_its_length() -> None:
     """The ratio of a solenoid falls from 2 (a loop) through 1 towards 0 as it gets longer."""
     ratios = [SymmetricBody.cylindrical_shell(1, 1, h).ratio for h in (0, 1, 2, 6**0.5, 3, 100)]
     assert ratios[0] == 2
@@ -118,7 +118,7 @@ def test_balls_and_plane_bodies_have_exact_ratios() -> None:
 
 @pytest.mark.slow
 @given(seeds)
-def test_a_turned_body_is_found_with_its_axis(seed: int) -> None:
+def test_turned_and_shifted_points_keep_their_moments_and_turn_the_axis(seed: int) -> None:
     """Turning and shifting the points changes neither moment, and turns the axis along."""
     rng = np.random.default_rng(seed)
     masses, positions = points([(rng.uniform(0.5, 2), z, rng.uniform(0.5, 2)) for z in rng.normal(size=3)], 7)

@@ -175,7 +175,9 @@ def test_folder_jobs_locale_and_time_zone_change_no_byte(undisturbed: dict[str, 
 
 
 @pytest.mark.slow
-def test_a_full_disk_is_one_line_and_the_last_good_report_is_kept(undisturbed: dict[str, str], copy: Path) -> None:
+def test_a_full_disk_is_reported_in_one_line_and_the_last_good_report_kept(
+    undisturbed: dict[str, str], copy: Path
+) -> None:
     """When a file cannot be written in full, the command says so in one line and leaves the old file."""
     words = command(copy)
     (copy / "small.toml").write_text(REPORT.replace("A Small Report", "Another Title"))
@@ -191,7 +193,7 @@ def test_a_full_disk_is_one_line_and_the_last_good_report_is_kept(undisturbed: d
     assert content(copy) == undisturbed
 
 
-def test_a_folder_that_cannot_be_is_one_line(tmp_path: Path) -> None:
+def test_a_folder_that_cannot_be_made_is_reported_in_one_line(tmp_path: Path) -> None:
     """Where a file stands in the place of the folder, the command says so in one line."""
     words = command(tmp_path)
     (tmp_path / "out").write_text("in the way")

@@ -149,7 +149,7 @@ def test_a_change_redraws_exactly_the_dependent_figures(
     assert ("report" in changed) is not cosmetic
 
 
-def test_a_parameter_draws_again_its_figure(checkout: Path, keys: Keys) -> None:
+def test_a_changed_parameter_redraws_its_figure(checkout: Path, keys: Keys) -> None:
     """One figure's parameter makes that figure new and no other, down to the last bit."""
     assert checkout.is_dir()
     changed = figure("hyperbola", ratio=1.5000000000000002)
@@ -165,7 +165,7 @@ def test_another_gl_library_redraws_shaded_figures(checkout: Path, keys: Keys) -
 
 
 @pytest.mark.parametrize("library", ["matplotlib", "vtk", "python-flint"])
-def test_another_version_of_a_library_draws_all_again(
+def test_another_version_of_a_library_redraws_all_figures(
     library: str, keys: Keys, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Another version of any library makes every figure and every report new."""
@@ -185,7 +185,7 @@ def test_the_place_of_the_checkout_does_not_matter(checkout: Path, keys: Keys, m
 
 
 @pytest.mark.slow
-def test_a_figure_is_drawn_once_and_says_why(tmp_path: Path) -> None:
+def test_a_figure_is_drawn_once_and_then_taken_from_the_cache(tmp_path: Path) -> None:
     """The first time a figure is drawn, the second time it is taken; both have the same files and facts."""
     cache = Cache(tmp_path)
     builds = drawn_builds([figure("trochoids"), figure("trochoids", speeds=(0.5, 1.0))], cache)
@@ -284,7 +284,7 @@ class Deadly:
 
 
 @pytest.mark.slow
-def test_compressed_data_are_the_data(tmp_path: Path) -> None:
+def test_compressed_data_read_back_the_same(tmp_path: Path) -> None:
     """The file of gzip holds the CSV, and in its header no date and no system, so that its bytes are the same."""
     (build,) = drawn_builds([figure("trochoids", "csv", "csv.gz")], Cache(tmp_path))
     assert gzip.decompress(build.contents["csv.gz"]) == build.contents["csv"]
@@ -350,7 +350,7 @@ def test_an_error_of_the_disk_is_raised(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_costs_of_a_figure_are_noted(tmp_path: Path) -> None:
+def test_the_costs_of_a_figure_are_recorded(tmp_path: Path) -> None:
     """The points and faces of the scene are counted, and time, memory and bytes noted."""
     plane, space = drawn_builds([figure("hyperbola"), figure("cone")], Cache(tmp_path))
     assert plane.facts["cost"]["points"] > 50
@@ -402,7 +402,7 @@ def test_a_shaded_figure_is_a_png(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_a_worker_has_the_variables_of_the_process_that_asks(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_has_the_environment_variables_of_its_caller(monkeypatch: pytest.MonkeyPatch) -> None:
     """One that was set after the process was started of which workers are forks counts, such as ATLAS_GL."""
     context = processes.prepare(processes.DRAWING)
     monkeypatch.setenv("ATLAS_GL", "set late")

@@ -82,7 +82,7 @@ def italic(letter: str) -> str:
     return PLANCK if letter == "h" else unicodedata.lookup(f"MATHEMATICAL ITALIC {case} {letter.upper()}")
 
 
-def test_pages_hold_no_markup_that_was_not_set(built: Built) -> None:
+def test_no_unrendered_markup_is_left_in_pages(built: Built) -> None:
     """No TeX, no Markdown, no template syntax, no citation is left in the reader's text."""
     for path, page in pages(built):
         for element in page.xpath(
@@ -93,7 +93,7 @@ def test_pages_hold_no_markup_that_was_not_set(built: Built) -> None:
         assert not re.search(r"\\[a-zA-Z]+|\$|\{\{|\}\}|\{%|@\w|\*\*|::", text), path.name
 
 
-def test_every_link_and_file_is_there(built: Built) -> None:
+def test_every_link_leads_to_a_file_of_the_report(built: Built) -> None:
     """Each href and src leads to a file of the report and to an anchor in it; nothing leads to the network."""
     anchors = {path.name: set(page.xpath("//@id")) for path, page in pages(built)}
     for path, page in pages(built):
@@ -109,7 +109,7 @@ def test_every_link_and_file_is_there(built: Built) -> None:
         assert (built.index.parent / link).is_file()
 
 
-def test_every_figure_has_its_words(built: Built) -> None:
+def test_every_figure_has_alternative_text_caption_and_command(built: Built) -> None:
     """A picture has alternative text without TeX; a figure a number, a caption, its recipe's name and its command."""
     numbers = []
     for _, page in pages(built):
@@ -245,7 +245,7 @@ def test_text_is_escaped_for_html(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_pages_or_the_pdf_alone(tmp_path: Path) -> None:
+def test_pages_or_the_pdf_can_be_built_alone(tmp_path: Path) -> None:
     """With one format the other stays as it was; asked for both, only the one that is out of date is made."""
     file, out = tmp_path / "mine.toml", tmp_path / "out"
     file.write_text(MINE.replace("{ mu = 0.0 }", "{ }"), encoding="utf-8")

@@ -80,7 +80,7 @@ def test_a_failing_pdf_leaves_the_last_good_one(
 
 
 @pytest.mark.slow
-def test_a_pdf_with_the_same_content_is_not_set_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pdf_with_the_same_content_is_not_typeset_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A report whose file changed, but nothing in its PDF, gets the PDF of the last build, wherever it is built."""
     file = report(tmp_path, "Old")
     before = build_report(file, tmp_path / "out").pdf.read_bytes()

@@ -337,7 +337,7 @@ def test_a_curve_keeps_the_largest_errors_of_its_rows() -> None:
 @settings(max_examples=60)
 @example("omega2 near -(2-I) B2", 1643)  # a phase of 2^22, which three words hold to 2^-59
 @given(st.sampled_from(sorted(REGIMES)), st.integers(0, 10**6))
-def test_the_truth_of_blocks_is_certain_to_2e_18(regime: str, seed: int) -> None:
+def test_reference_values_of_blocks_are_within_2e_18_of_the_balls(regime: str, seed: int) -> None:
     """R, Omega in units of its length, and the quaternion are within UNCERTAINTY of the balls, on extreme inputs."""
     inputs = extreme.motion(regime, Random(seed))  # noqa: S311  reproducible, not secret
     motion = exact.ElementaryMotion(inputs.exact_ratio, (inputs.B2, inputs.B3), inputs.omega2, inputs.omega3)

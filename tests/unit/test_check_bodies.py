@@ -101,7 +101,7 @@ def test_quaternions_of_either_sign_are_accepted(tmp_path: Path, of_body: np.nda
 
 
 @pytest.mark.parametrize("inertia", [(1.0, 1.0, 0.5), (0.8, 1.0, 1.3)])
-def test_where_balls_answer_there_are_all_digits(tmp_path: Path, inertia: tuple[float, ...]) -> None:
+def test_where_balls_decide_each_row_all_digits_are_counted(tmp_path: Path, inertia: tuple[float, ...]) -> None:
     """A symmetric body by three moments, and Euler's top have no theta functions: balls decide each row."""
     field = (0.2, 1.0, 0.6) if inertia[0] == inertia[1] else (0.0, 0.0, 0.0)
     inputs = {"inertia": inertia, "field": field, "omega": (0.3, 0.7, 0.2)}
@@ -110,7 +110,7 @@ def test_where_balls_answer_there_are_all_digits(tmp_path: Path, inertia: tuple[
 
 
 @pytest.mark.slow
-def test_more_digits_than_the_closed_form_has_are_no_threshold(tmp_path: Path, of_body: np.ndarray) -> None:
+def test_a_threshold_beyond_the_digits_of_the_closed_form_is_refused(tmp_path: Path, of_body: np.ndarray) -> None:
     """The sentence says how many there may be."""
     with pytest.raises(AtlasError, match=r"may be 1\d\.\d digits at most"):
         check(trajectory_file(tmp_path, of_body), **BODY, threshold=15.0)

@@ -113,7 +113,7 @@ def test_a_slip_of_a_part_in_1e40_is_in_the_bounds(
 
 
 @pytest.mark.slow
-def test_the_bounds_of_a_body_whose_times_are_complex() -> None:
+def test_the_bounds_hold_for_a_body_whose_times_are_complex() -> None:
     """Nearly a ball, where forms are large far from the real times: slips in K and N, and the size of N's factor."""
     body = (1.0, 1.00390625, 1.006640625), (-0.41, -1.04, 0.92), (-0.65, -1.37, 0.32)
     torus = Balls(*body).on_torus

@@ -62,7 +62,7 @@ def kernel(inertia: Three, field: Three, omega: Three) -> ThetaKernel:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case", [QUICK, WEAK])
-def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three]) -> None:
+def test_the_closed_form_agrees_with_the_certified_twin(case: tuple[Three, Three, Three]) -> None:
     """R, K and Omega up to t = 8e11 are those of proven digits, within 8 ulp of 1 and the motion's own bound."""
     closed = kernel(*case)
     twin = (motion()._single() if case is QUICK else SingleAsymmetric(Balls(*case))).certified
@@ -78,7 +78,7 @@ def test_the_closed_form_is_the_certified_twin(case: tuple[Three, Three, Three])
 
 @pytest.mark.parametrize("slip", ["", "lower words", "rest"])
 @pytest.mark.parametrize("case", [QUICK, NEAR])
-def test_bounds_on_sums_hold_and_need_every_word(
+def test_bounds_on_sums_hold_and_need_the_low_words(
     case: tuple[Three, Three, Three], slip: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Sums at 40 places, at once and one by one, are those of 200 bits within the bound.
@@ -348,7 +348,7 @@ def test_components_that_vanish_by_symmetry_are_zero() -> None:
 
 
 @pytest.mark.slow
-def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_proof_the_difference_from_the_twin_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where theta functions are not proved, `agreement` names the difference from the twin and the last time."""
 
     def refuse(*_: Any) -> None:
@@ -360,7 +360,7 @@ def test_without_a_proof_the_twin_is_asked(monkeypatch: pytest.MonkeyPatch) -> N
     assert re.match(r"not proved; agrees with .* within \S+ at 2 times up to \|t\| = 4.88; rounding", single.agreement)
 
 
-def test_a_matrix_asks_for_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_evaluating_a_matrix_starts_no_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nor for a period that is proved, nor for the least bound on rounding: these are found when they are asked for."""
     for place, name in ((clebsch_proof, "distances"), (Torus, "periods")):
         monkeypatch.setattr(place, name, lambda *_, name=name: pytest.fail(f"{name} is asked for"))

@@ -235,7 +235,7 @@ def test_no_digit_is_cut_on_a_narrow_terminal() -> None:
     assert "-0.008501748978" in output.decode()
 
 
-def test_the_plane_pair_has_a_hyperbola() -> None:
+def test_across_the_field_one_line_is_sampled_and_the_other_named() -> None:
     """For B3 = 0 the line omega3 = 0 is sampled, and the other line is told of."""
     words = "hyperbola --ratio 1.5 --field 1 0 --count 5".split()
     points = record(*words)["points"]
@@ -347,7 +347,7 @@ def test_a_failing_figure_names_the_fault_of_its_parameter(bad_recipe: Path) -> 
         ("x=word", "word"),
     ],
 )
-def test_a_setting_is_typed_as_a_number_is(text: str, value: object) -> None:
+def test_the_option_set_reads_numbers_lists_and_words(text: str, value: object) -> None:
     """--set reads numbers as every other option does, lists of them, true and false, and words."""
     assert setting(text) == ("x", value)
 
@@ -403,7 +403,7 @@ def test_zero_may_have_a_unit() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [f"{MOTION} --grid 0 1 20000 --json", f"{MOTION} --times 0:10:100000", "--help"])
-def test_the_reader_of_a_pipe_may_leave(words: str) -> None:
+def test_a_closed_pipe_ends_the_program_quietly(words: str) -> None:
     """A closed pipe ends the program quietly, as by SIGPIPE, and long before all of a long table is computed."""
     limited = ["/bin/sh", "-c", 'unset PYTHONUNBUFFERED; ulimit -t 30 && exec "$@"', "sh", *ATLAS, *words.split()]
     with subprocess.Popen(limited, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -414,7 +414,7 @@ def test_the_reader_of_a_pipe_may_leave(words: str) -> None:
     assert process.returncode == 128 + signal.SIGPIPE
 
 
-def test_a_long_table_is_the_same_as_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_table_printed_in_parts_equals_the_whole_table(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rows that are computed and printed a few at a time are those of one table; the heading stands once."""
     words, rows = f"{MOTION} --times 0:10:40".split(), []
     for few in (7, 1000):

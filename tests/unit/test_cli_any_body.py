@@ -80,7 +80,7 @@ def test_a_symmetric_body_is_printed_in_its_own_and_in_the_given_axes() -> None:
 
 
 @pytest.mark.slow
-def test_points_and_tesla_are_moments_and_rates(tmp_path: Path) -> None:
+def test_points_and_tesla_give_moments_and_rates(tmp_path: Path) -> None:
     """Moved as a whole the points have their moments; B of 100, 200, 2000 T at 1e-3 C/kg is B' = (0.05, 0.1, 1) /s."""
     typed_record = numbers("motion", *"--inertia 5 3 6 --field 0.05 0.1 1".split(), *REST.split())
     moved_points = POINTS + np.array([8.0, -4.0, 2.0, 0.0, 0.0])
@@ -302,7 +302,7 @@ def test_numbers_with_units_equal_numbers_in_si(one: str, words_other: str) -> N
         ("particle --mu 1C/kg --electric 0V/m 5V/m 0V/m --magnetic 0 0T 1T", {"0V/m": "0", "0T": "0"}),
     ],
 )
-def test_zero_has_any_unit(words: str, plain: dict[str, str]) -> None:
+def test_a_zero_without_a_unit_may_stand_beside_units(words: str, plain: dict[str, str]) -> None:
     """It is that without: beside other numbers with units, in a range of times and among several."""
     words_plain = " ".join(plain.get(word, word) for word in words.split())
     assert words_plain != words
@@ -365,7 +365,7 @@ def test_each_list_names_its_entries_with_their_keys(name: str, entry: str, word
 @pytest.mark.parametrize(
     "times", ["--times 0,0.5,1", "--times 0 0.5,1", "--grid 0 0.5 3", "--grid 0:1:3", "--times 0:1:3"]
 )
-def test_lists_and_ranges_of_times_are_one(times: str) -> None:
+def test_lists_and_ranges_give_the_same_times(times: str) -> None:
     """Words, commas, a range and a grid give the same times; even steps of the logarithm their powers."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7"
     samples = numbers(*words.split(), *times.split(), "--json")["samples"]
@@ -379,7 +379,7 @@ def test_lists_and_ranges_of_times_are_one(times: str) -> None:
     assert "Omega_i [1/s]" in run(*words.split(), *"--times 1ms:1s:4:log".split())[1]
 
 
-def test_a_range_of_times_is_its_list() -> None:
+def test_a_range_of_times_equals_its_list() -> None:
     """START:STOP:COUNT has both ends, beside single times, exact where decimals are not."""
     words = "motion --ratio 1.5 --field 1 2 --omega2 0.7 --json --times".split()
     assert numbers(*words, "0:0.3:4", "7") == numbers(*words, "0", "0.1", "0.2", "0.3", "7")
@@ -395,7 +395,7 @@ def test_a_long_range_is_read_by_one_division_each(monkeypatch: pytest.MonkeyPat
     assert len(sums) < 10
 
 
-def test_decades_are_whole_numbers() -> None:
+def test_logarithmic_ranges_have_exact_ends_and_powers_of_ten() -> None:
     """Even steps of the logarithm have both ends as typed, and powers of ten between these."""
     option = click.Option(["--times"], multiple=True, type=REAL)
     assert [*REAL.convert("1:1000:4:log", option, None)] == [1, 10, 100, 1000]
@@ -405,7 +405,7 @@ def test_decades_are_whole_numbers() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("start", ["--omega 0 0.7 1", "--omega 0 0.7 1 --attitude 0 0 0 1"])
 @pytest.mark.parametrize("times", ["--times 0:10:200000", "--grid 0 1e-3 200000"])
-def test_the_first_row_waits_for_few_others(monkeypatch: pytest.MonkeyPatch, start: str, times: str) -> None:
+def test_few_rows_are_computed_beyond_those_printed(monkeypatch: pytest.MonkeyPatch, start: str, times: str) -> None:
     """A reader who goes after the first rows, as head does, had nothing computed that is not printed."""
     printed, numbers_there = list[str](), list[int]()
 

@@ -66,7 +66,7 @@ def test_decimals_of_a_shape_are_taken_as_typed() -> None:
 
 
 @pytest.mark.parametrize("units", [["--units", "gaussian"], []])
-def test_mass_and_charge_are_their_ratio(units: list[str]) -> None:
+def test_mass_and_charge_act_as_their_ratio(units: list[str]) -> None:
     """--mass and --charge act as --mu with their quotient; without --units they are in SI."""
     base = "motion --ratio 1.5 --magnetic 1 2 --omega2 0.7".split()
     by_charge = record(*base, "--mass", "4", "--charge", "-3", *units)

@@ -31,7 +31,7 @@ def run(words: str) -> tuple[int, str]:
     return outcome.exit_code, outcome.output
 
 
-def test_answers_that_take_long_are_drawn_less_often(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slow_answers_are_sampled_by_fewer_draws(monkeypatch: pytest.MonkeyPatch) -> None:
     """A hundred draws then, which is said, and a deviation to 7 %."""
     monkeypatch.setattr(uncertainty, "DRAWS", 150)
     words = "motion --ratio 1.3 --field 1 2 --omega 0.3 0.7(0.3) 0.2"
@@ -47,7 +47,7 @@ def numbers(words: str) -> dict[str, Any]:
     return dict(json.loads(out))
 
 
-def test_every_number_has_the_deviation_of_a_monte_carlo() -> None:
+def test_deviations_agree_with_a_monte_carlo_sample() -> None:
     """Of a body and a field that are known within a percent; the numbers stay those of the middle."""
     record = numbers("motion --ratio 1.3(0.01) --field 1.00(2) 2 --omega 0.3 0.7 0.2 --times 3")
     draw = np.random.default_rng(3).normal
@@ -60,7 +60,7 @@ def test_every_number_has_the_deviation_of_a_monte_carlo() -> None:
     assert pytest.approx(many.rotation(3.0).std(axis=0), rel=0.08) == R
 
 
-def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
+def test_deviations_of_charge_and_radius_reach_the_larmor_frequency() -> None:
     """Larmor's frequency q B/(2 m) has the relative deviation of the charge, and of a sphere's mass three of r."""
     words = "--height 3um --density 1850kg/m3 --magnetic 0.4T 0.69T --spin 2MHz"
     record = numbers(f"motion --shape solid-cylinder --radius 1.20(3)um --charge 5000(200)e {words}")
@@ -75,13 +75,13 @@ def test_a_charge_and_a_radius_carry_theirs_to_the_larmor_frequency() -> None:
 
 
 @pytest.mark.parametrize("radius", ["1.20(0.03)um", "1.20±0.03um", "1.20+-3e-2um", "1.20+/-.03um"])
-def test_an_uncertainty_is_written_as_anywhere(radius: str) -> None:
+def test_an_uncertainty_is_read_in_brackets_or_after_a_sign(radius: str) -> None:
     """In brackets or after a sign, with a unit behind."""
     words = "motion --shape ring --mass 1kg --charge 1C --magnetic 0.1 0.2 --omega2 0.3 --radius"
     assert numbers(f"{words} {radius}") == numbers(f"{words} 1.20(3)um")
 
 
-def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
+def test_deviations_of_strength_and_angle_of_a_field_reach_the_rates() -> None:
     """A precession's k = omega2/sin(angle), (79), has that of the angle alone, Larmor's frequency that of strength."""
     record = numbers("motion --ratio 1.3 --magnetic 0.8(1)T --angle 30(2)deg --mu 1C/kg --omega2 0.3")
     slope = 0.3 * math.cos(math.pi / 6) / math.sin(math.pi / 6) ** 2
@@ -91,7 +91,7 @@ def test_a_field_at_an_angle_has_the_deviations_of_both() -> None:
     assert record["sigma"]["larmor"] == pytest.approx(0.05)
 
 
-def test_families_with_fields_of_their_own_carry_theirs() -> None:
+def test_deviations_of_the_field_reach_particles_and_balls() -> None:
     """A particle's e B/m has that of B, a ball's gamma = |(0, m2, m3 + larmor)| of its Larmor frequency, (29)."""
     record = numbers("particle --mass 1u --charge 1e --electric 0 0.5V/m 0 --magnetic 0 0 1.0(1)T --velocity 1km/s 0 0")
     assert record["sigma"]["cyclotron_frequency"] / record["cyclotron_frequency"] == pytest.approx(0.1)
@@ -111,7 +111,7 @@ def test_quantities_beyond_first_order_are_sampled_and_named() -> None:
     assert "modulus" in sampled[1]
 
 
-def test_where_the_domain_ends_the_derivative_is_that_on_its_side() -> None:
+def test_at_the_end_of_the_domain_the_derivative_is_one_sided() -> None:
     """By (71) omega3 = omega2 B3 (3 - I)/(2 I B2), of slope -3/I^2 here, and no body has I > 2; the modulus is bent."""
     record = numbers("motion --ratio 2.00(1) --field 1 2 --omega2 1")
     assert record["sigma"]["omega3"] == pytest.approx(0.01 * 3 / 2**2, rel=1e-3)
@@ -177,7 +177,7 @@ def test_the_last_two_digits_have_the_deviation(value: float, sigma: float, text
 
 
 @pytest.mark.slow
-def test_a_torus_is_drawn_with_the_certified_frequencies(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_draws_of_a_torus_have_the_certified_frequencies(monkeypatch: pytest.MonkeyPatch) -> None:
     """Draws take them from theta functions, the first answer from proved periods, which a draw need not prove."""
     motion: Any = atlas.motion((0.9, 1.1, 1.45), (0, 1, 2), (0.3, 0.7, 0.2))
     np.testing.assert_allclose(motion._frequencies_near(motion.frequencies), motion.frequencies, rtol=1e-14)

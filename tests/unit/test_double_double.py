@@ -34,7 +34,7 @@ def value(x: DoubleDouble) -> Fraction:
 @given(floats, floats, floats, floats, st.sampled_from(sorted(OPERATIONS)))
 @example(1.0, 2.0**-60, 1.0, -(2.0**-60), "difference")
 @settings(max_examples=300, deadline=None)
-def test_each_operation_keeps_its_bound(a: float, b: float, c: float, d: float, name: str) -> None:
+def test_each_operation_stays_within_its_error_bound(a: float, b: float, c: float, d: float, name: str) -> None:
     """Of sums in two words a + b and c + d, each operation is within its own bound of the exact result."""
     x, y = number(a) + number(b), number(c) + number(d)
     operation = OPERATIONS[name]
@@ -50,7 +50,7 @@ def test_each_operation_keeps_its_bound(a: float, b: float, c: float, d: float, 
 
 @given(floats.filter(lambda x: x > 0), floats)
 @settings(max_examples=200, deadline=None)
-def test_a_root_keeps_its_bound(a: float, b: float) -> None:
+def test_a_square_root_stays_within_its_error_bound(a: float, b: float) -> None:
     """The square of the root of a^2 + b^2 is within twice the bound of a root of it."""
     square = number(a) * number(a) + number(b) * number(b)
     root = square.sqrt()

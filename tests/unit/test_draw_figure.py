@@ -238,7 +238,7 @@ def test_the_silhouette_lies_on_the_surface_where_the_line_of_sight_grazes_it(na
     assert count > 10
 
 
-def test_a_piece_of_a_line_too_short_to_see_is_no_dot() -> None:
+def test_pieces_of_a_line_too_short_to_see_are_not_drawn() -> None:
     """Rounding may leave a piece of a line where it touches a surface: that is not drawn, on no machine."""
     (ball, arrow) = ball_scene().panels[0].layers
     bit = Curve(np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0 + 1e-9]]), "loop")

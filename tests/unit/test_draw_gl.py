@@ -40,7 +40,9 @@ def test_the_first_library_that_draws_is_cached(fresh: Path, monkeypatch: pytest
     assert len(drivers_tried) == 4
 
 
-def test_a_no_is_remembered_until_libraries_are_installed(fresh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_search_without_result_is_remembered_until_libraries_are_installed(
+    fresh: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Nobody is asked again until a dependency of the answer has changed; then installed libraries are found."""
     drivers, drivers_tried = fresh / "dri", list[str]()
     monkeypatch.setattr(gl, "DRIVERS", (str(drivers),))

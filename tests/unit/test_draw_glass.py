@@ -222,7 +222,7 @@ def random_quadrics(rng: np.random.Generator, count: int) -> list[FloatArray]:
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_places_go_up_from_hit_to_hit_of_every_ray(seed: int) -> None:
+def test_hits_of_every_ray_are_in_order_of_distance(seed: int) -> None:
     """For any quadrics and any eye, with a second-order term along the ray of either sign, or of none."""
     rng = np.random.default_rng(seed)
     forms = random_quadrics(rng, 4)

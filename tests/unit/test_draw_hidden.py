@@ -170,7 +170,7 @@ def test_near_and_far_half_of_a_ball_cover_its_disk() -> None:
         assert area(edge, frame) == pytest.approx(np.pi, rel=3e-3)
 
 
-def test_the_areas_of_an_open_tube_are_its_strips() -> None:
+def test_an_open_tube_covers_its_rectangle_twice() -> None:
     """Seen from the side, a tube of radius 1 and height 2 shows the rectangle 2 x 2 twice."""
     tube = solids.cylinder(np.zeros(3), np.array([0.0, 0.0, 1.0]), 1.0, 2.0, 1e-2)
     frame = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])

@@ -30,7 +30,7 @@ def pixels(layers: Any, path: Path, dpi: float = 100.0, **options: Any) -> NDArr
     return picture(draw(scene, path, renderer="shaded", dpi=dpi))
 
 
-def test_a_second_picture_is_like_the_first(tmp_path: Path) -> None:
+def test_a_second_picture_equals_the_first(tmp_path: Path) -> None:
     """Nothing is kept of earlier drawings: other things between two equal scenes change no byte."""
     ball = [solids.sphere(np.zeros(3), 1.0, 1e-2)]
     picture = pixels(ball, tmp_path / "a.png")

@@ -76,7 +76,7 @@ def test_points_of_surfaces_lie_on_the_given_quadric() -> None:
     assert (within, front, back, dense) == ([], look.colour, look.back, look.glass)
 
 
-def test_lines_and_marks_are_all_there() -> None:
+def test_the_viewer_has_all_lines_and_marks_of_a_scene() -> None:
     """A line has no point twice, less than the curve, and is nowhere half a point away from it; marks are there."""
     scene = recipes.load("nutation_traces").scene()
     wide = data(scene)["wide"]
@@ -107,7 +107,7 @@ def test_a_note_is_written_smaller_than_a_name() -> None:
     assert note == pytest.approx(0.9 * np.array(name), rel=1e-2)
 
 
-def test_panels_know_their_places_on_both_screens() -> None:
+def test_panels_have_places_on_wide_and_narrow_screens() -> None:
     """Panels in space beside curves lie within the figure, and anew where they stand below one another."""
     for name, panels in (("motion", 0), ("two_turns", 3)):
         scene_data = handed(name)
@@ -162,7 +162,7 @@ def test_plane_panels_are_not_turned(name: str) -> None:
     assert not script(recipes.load(name).scene())
 
 
-def test_a_page_stays_light() -> None:
+def test_the_viewer_and_its_scene_are_small() -> None:
     """The viewer, its indentation aside, is below 30 kB, and the poster, the figure of most lines, below 140 kB."""
     assert sum(len(line.strip()) + 1 for line in (HTML / "scene.js").read_bytes().splitlines()) < 30_000
     assert len(script(recipes.load("flight_poster").scene())) < 140_000

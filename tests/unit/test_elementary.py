@@ -169,13 +169,13 @@ def test_an_out_that_cannot_be_filled_is_an_error(out: Any) -> None:
 
 
 @pytest.mark.parametrize("count", [-1, 2.5, np.nan, "3", [3]])
-def test_a_grid_has_a_whole_number_of_times(count: Any) -> None:
+def test_a_count_of_times_that_is_no_whole_number_is_refused(count: Any) -> None:
     """Any other count is one sentence."""
     with pytest.raises(AtlasError, match=r"^The count of the grid must be [^\n]*$"):
         ElementaryMotion(1.5, (1.0, 2.0), 0.7).rotation_grid(0.0, 1.0, count)
 
 
-def test_shapes_that_do_not_meet_are_one_sentence() -> None:
+def test_shapes_that_do_not_broadcast_are_refused_in_one_sentence() -> None:
     """Parameters among themselves, and parameters with times; masked entries are no numbers."""
     pair = ElementaryMotion(1.5, (1.0, 2.0), np.array([0.7, 0.8]))
     for call in (

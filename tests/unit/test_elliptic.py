@@ -55,7 +55,7 @@ def fraction(x: object) -> Fraction:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_balls_hold_the_taylor_integration(name: str) -> None:
+def test_balls_contain_the_taylor_integration(name: str) -> None:
     """R(t) and Omega(t) as balls hold the values of an integration of (12), (16), to 28 digits."""
     with ctx.workprec(240):
         motion = Balls(*CASES[name])
@@ -286,7 +286,7 @@ def test_arrays_are_the_motions_one_by_one(regime: str) -> None:
                 assert np.isnan(getattr(motions, name)[i])
 
 
-def test_of_no_motions_there_are_no_constants() -> None:
+def test_empty_arrays_have_empty_constants() -> None:
     """An empty array of motions has empty arrays of constants, with times and without."""
     none = atlas.EllipticMotion((np.empty(0), 1.0, 1.3), (0.2, 1.0, 0.6), 1.7)
     for constants in (none.invariants(), none.invariants(1.0)):
@@ -353,7 +353,7 @@ def test_pushed_motions_leave_only_unstable_motions(case: tuple[object, ...], st
 
 
 @pytest.mark.parametrize("name", ["unbounded oval", "bounded oval, other branch", "axes in another order", "flat"])
-def test_the_splitting_is_the_square_of_the_flow_across(name: str) -> None:
+def test_the_splitting_gives_the_eigenvalues_of_the_transverse_flow(name: str) -> None:
     """The flow of H + (z/D) F/2 stands still on the motion, with eigenvalues +-sqrt(-C)/D there, and four zeros."""
     inertia, field, z, branch = CASES[name]
     motion = atlas.EllipticMotion(inertia, field, z, branch)

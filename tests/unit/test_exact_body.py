@@ -25,7 +25,7 @@ def test_the_moments_in_floats_agree_with_the_shape(name: str) -> None:
         assert abs(Fraction(decimal) - exact) <= 2 * Fraction(2) ** -52 * exact
 
 
-def test_the_shell_of_height_root_six_is_a_ball_in_disguise() -> None:
+def test_the_shell_of_height_root_six_has_the_ratio_of_a_ball() -> None:
     """I = 1 at h = R sqrt(6), between two neighbouring doubles."""
     below, above = (shape_moments("cylindrical_shell", mass=1, radius=1, height=h) for h in (2.449489742783178, 2.45))
     assert below[1] / below[0] > fmpq(1) > above[1] / above[0]

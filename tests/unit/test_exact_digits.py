@@ -125,13 +125,13 @@ def test_a_tie_that_a_ball_cannot_decide_prints_one_digit_less() -> None:
     assert proven(Fraction(3, 20), 1) == "0.2"
 
 
-def test_no_zero_is_invented_before_the_point() -> None:
+def test_a_number_larger_than_its_proven_digits_has_an_exponent() -> None:
     """A number larger than its proven digits is written with an exponent."""
     assert proven(123456, 3) == "1.23e+05"
     assert proven(arb(123420.0, 10.0), 6) == "1.234e+05" + MARK
 
 
-def test_the_layouts_agree() -> None:
+def test_all_layouts_write_the_same_number() -> None:
     """Plain, scientific, fixed and TeX write one number in four ways."""
     assert proven(-1.25e-7, 3, "plain") == "-1.25e-07"
     assert proven(0.03125, 3, "plain") == "0.0312"
@@ -141,7 +141,7 @@ def test_the_layouts_agree() -> None:
     assert proven(-0.0001, 2, "fixed") == "0.00"
 
 
-def test_structure_is_kept_and_names_pass_through() -> None:
+def test_lists_and_dictionaries_keep_their_structure_as_text() -> None:
     """Lists, tuples and dictionaries come back with their numbers as text, ready for JSON."""
     result = certified(lambda: {"case": "free body", "k": (arb(2).sqrt(), None), "R": [[fmpq(1)]]}, 5)
     assert result == {"case": "free body", "k": ("1.4142", None), "R": [["1.0000"]]}

@@ -105,7 +105,7 @@ def test_two_enclosures_overlap(kind: str) -> None:
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_a_motion_to_a_triple_root_starts_anywhere(sign: int) -> None:
+def test_a_motion_to_a_triple_root_may_start_anywhere(sign: int) -> None:
     """A state in the middle of the separatrix of a triple root, in exact fractions, agrees with the integration."""
     K1, K2, K3, u = fmpq(8, 3), fmpq(5, 3), fmpq(-1, 3), fmpq(-2, 3)
     radial, rate = u * u + fmpq(3, 2) * u - fmpq(11, 2), sign * fmpq(16, 9)

@@ -94,7 +94,7 @@ NAMES = {name: getattr(atlas, name) for name in ("GeneralMotion", "ElementaryMot
         "--points {points} --magnetic 0 1 2",
     ],
 )
-def test_both_floors_take_the_same_body_and_field(body: str, tmp_path: Path) -> None:
+def test_doubles_and_balls_take_the_same_body_and_field(body: str, tmp_path: Path) -> None:
     """Doubles and proven digits agree at a late time: neither rounds moments, mass or charge on the way."""
     points = tmp_path / "points.csv"
     rows = ["0.3,0,0.1", "-0.3,0,0.1", "0,0.3,0.1", "0,-0.3,0.1"]

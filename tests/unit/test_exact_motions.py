@@ -71,7 +71,9 @@ times = st.floats(-1e15, 1e15) | st.sampled_from([0.0, 1e-300, 1.0])
 @pytest.mark.slow
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes, ordinary, times)
-def test_elementary_motion_contains_mpmath(I: float, B2: float, B3: float, w2: float, t: float) -> None:
+def test_balls_of_an_elementary_motion_contain_the_mpmath_values(
+    I: float, B2: float, B3: float, w2: float, t: float
+) -> None:
     """Frequencies, matrix and angular velocity agree with (71), (72), (84), (73) evaluated in mpmath."""
     if w2 + B2 == 0:
         return
@@ -152,7 +154,7 @@ def test_decimal_strings_are_taken_as_typed() -> None:
 @pytest.mark.slow
 @settings(max_examples=60)
 @given(ratios, ordinary | sizes, ordinary | sizes)
-def test_quadric_contains_mpmath(I: float, B2: float, B3: float) -> None:
+def test_balls_of_a_quadric_contain_the_mpmath_values(I: float, B2: float, B3: float) -> None:
     """Angle, a2, a3, semi-axes and axes agree with (54) to (57) evaluated in mpmath."""
     q = Quadric(I, (B2, B3))
     expected = closed_form.quadric(1, I, B2, B3)
@@ -176,7 +178,9 @@ def test_quadric_contains_mpmath(I: float, B2: float, B3: float) -> None:
         (1.5, (0.0, 0.0), "all space"),
     ],
 )
-def test_the_six_kinds_of_quadric(ratio: float, field: tuple[float, float], kind: str) -> None:
+def test_the_six_kinds_of_quadric_are_decided_on_the_given_inputs(
+    ratio: float, field: tuple[float, float], kind: str
+) -> None:
     """The kind is decided on the inputs as given."""
     assert Quadric(ratio, field).kind == kind
 
@@ -212,7 +216,7 @@ def test_points_of_the_hyperbola_lie_on_the_quadric_and_rest_on_the_cubic(
     assert (arb(k) ** 2).contains(fmpq(expected.numerator, expected.denominator))
 
 
-def test_special_points_and_asymptotes_of_the_hyperbola() -> None:
+def test_special_points_lie_on_the_hyperbola_which_approaches_its_asymptotes() -> None:
     """The named points lie on the curve, where phi or omega3 vanish; far out the curve runs along its asymptote."""
     h = Hyperbola(1.5, (1.0, -2.0))
     for w2, w3 in h.special.values():
@@ -241,7 +245,7 @@ def test_the_unstable_band_ends_where_the_stability_changes_sign() -> None:
 
 @settings(max_examples=40)
 @given(ordinary | sizes, ordinary, ordinary | sizes, times)
-def test_ball_contains_mpmath(larmor: float, m2: float, m3: float, t: float) -> None:
+def test_balls_of_a_ball_motion_contain_the_mpmath_values(larmor: float, m2: float, m3: float, t: float) -> None:
     """Axis, frequency, matrix and momentum of the ball agree with (26) to (29) evaluated in mpmath."""
     b = BallMotion(0.4, larmor, (m2, m3))
     expected = closed_form.ball(0.4, larmor, m2, m3)
@@ -305,7 +309,7 @@ vectors = st.tuples(*[st.floats(-4, 4) | st.just(0.0)] * 3)
 @pytest.mark.slow
 @settings(max_examples=15)
 @given(st.floats(-2, 2), vectors, vectors, vectors, vectors, st.floats(-30, 30), st.sampled_from([1.0, 2.5]))
-def test_particle_contains_the_matrix_exponential(
+def test_balls_of_a_particle_contain_the_matrix_exponential(
     mu: float, E: Triple, B: Triple, y: Triple, v: Triple, t: float, c: float
 ) -> None:
     """Position and velocity agree with the exponential of the linear system, for any fields and either sign of mu."""

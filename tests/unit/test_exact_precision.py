@@ -85,7 +85,9 @@ def test_no_more_digits_are_lost_than_is_stated(family: Any, inputs: tuple[Any, 
 
 
 @pytest.mark.parametrize(("family", "inputs", "bits_lost"), LOST)
-def test_the_pair_has_the_period_of_the_motion(family: Any, inputs: tuple[Any, ...], bits_lost: list[int]) -> None:
+def test_the_period_of_alpha_and_beta_follows_from_that_of_the_motion(
+    family: Any, inputs: tuple[Any, ...], bits_lost: list[int]
+) -> None:
     """With alpha and beta, whose theta nutates or would, comes half of it; infinite where the motion's is."""
     del bits_lost
     motion = family(*inputs)
@@ -136,7 +138,7 @@ def test_the_length_of_huge_and_tiny_components_neither_overflows_nor_vanishes()
     assert nearest(-(fmpq(10) ** 400)) == -float("inf")
 
 
-def test_precision_is_one_threads_at_a_time_and_comes_back() -> None:
+def test_one_thread_at_a_time_sets_the_precision_which_is_restored() -> None:
     """A thread that wants other digits waits; errors too leave the precision as it was."""
     precisions, inside = [], threading.Event()
 

@@ -208,7 +208,7 @@ def test_a_proof_waits_until_the_sliders_rest(server: Explorer, monkeypatch: pyt
     assert float(numbers["energy"]["value"]) > 0.0
 
 
-def test_the_body_stands_as_the_motion_says(server: Explorer) -> None:
+def test_the_drawn_body_has_the_attitude_of_the_motion(server: Explorer) -> None:
     """The arrow of the axis is along R_3(t), and the view is the same at all times."""
     for t in (0.0, 3.7):
         panel = answer_of(server, "state", subject="general", t=t)["scene"]["wide"]["panels"][0]
@@ -239,7 +239,7 @@ def test_panels_that_turn_fill_the_picture(server: Explorer, name: str, places: 
 
 
 @pytest.mark.slow
-def test_figures_are_saved(server: Explorer) -> None:
+def test_the_shown_picture_is_saved_as_pdf_svg_or_png(server: Explorer) -> None:
     """PDF, SVG and PNG of the shown picture; another format is refused in a sentence."""
     for kind, head in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):
         answer, content = ask(server, f"/{server.folder}/figure?subject=hyperbola&format={kind}")

@@ -100,7 +100,7 @@ def run(program: str, data: Any) -> Any:
 
 @pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_courses_of_the_script_are_general_motions() -> None:
+def test_motions_of_the_script_agree_with_general_motions() -> None:
     """Over a minute R is right to 1e-8, from anywhere, a turning point, beside the hyperbola and at I = 1."""
     random, times, inputs = np.random.default_rng(7), np.linspace(0.0, 60.0, 61), []
     for k in range(60):
@@ -262,7 +262,7 @@ def test_the_front_page_shows_a_cut_of_a_figure_of_each_page(tmp_path: Any) -> N
     assert [card.file in pages(document)["index.html"] for card in cards_made] == [True, True]
 
 
-def test_a_thumbnail_is_the_place_that_is_asked_for() -> None:
+def test_a_thumbnail_shows_the_requested_part_of_a_picture() -> None:
     """A picture that is white but for one corner: that corner alone is seen about it, and fills a cut near it."""
     picture = Image.new("RGBA", (800, 600), "white")
     picture.paste((200, 0, 0, 255), (600, 450, 800, 600))
@@ -286,7 +286,7 @@ def test_plotted_lines_have_the_colours_of_the_figures() -> None:
 
 
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
-def test_the_explorer_takes_formulas_and_looks_from_python() -> None:
+def test_formulas_and_colours_of_the_explorer_come_from_python() -> None:
     """A formula that changes in Python changes in the script, whose own text has no colour but one that is paler."""
     changed = function_source("ordinate", lambda I2, I, B2, B3, w: I2 * abs(I) - B2 / (B3 + w), "I B2 B3 omega2")
     assert run(f"console.log(({{{changed}}}).ordinate(-2, 3, 4, 8))", None) == 2 - 3 / 12

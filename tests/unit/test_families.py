@@ -63,7 +63,7 @@ def plain(name: str, value: Any) -> bool:
 
 
 @EVERY
-def test_the_offer_of_each_family_is_unchanged(snapshot: SnapshotAssertion, family: Family) -> None:
+def test_the_register_entry_of_each_family_is_unchanged(snapshot: SnapshotAssertion, family: Family) -> None:
     """A line for the family, and for each parameter, quantity and function of time: names, units, ranges, promises."""
     records = (family, *family.parameters, *family.quantities, *family.sampled)
     descriptions = [{name: value for name, value in vars(record).items() if plain(name, value)} for record in records]

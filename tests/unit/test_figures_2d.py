@@ -159,7 +159,7 @@ def test_a_flight_ends_at_the_given_time() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_recipes_import_only_the_floors_below(name: str) -> None:
+def test_recipes_import_only_modules_below_them(name: str) -> None:
     """A recipe imports motions and modules below them, scenes, errors, NumPy and small parts of the library."""
     tree = ast.parse(load(name).source.read_text(encoding="utf-8"))
     modules = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
@@ -451,7 +451,7 @@ STARTS = (
 
 
 @pytest.mark.parametrize(("ratio", "field", "omega"), STARTS)
-def test_the_course_is_the_motion_of_omega3(
+def test_the_drawn_omega3_agrees_with_a_taylor_series(
     ratio: float, field: tuple[float, float], omega: tuple[float, float, float]
 ) -> None:
     """Omega3(t) as it is drawn agrees with the Taylor series of the Euler-Poisson equations to 1e-12."""

@@ -149,7 +149,7 @@ def test_the_laboratory_system_shows_the_field_and_its_components(field: tuple[f
 
 
 @pytest.mark.parametrize("E", [(0.3, 0.5), (-0.3, 0.5), (0.1, -0.4), (0.0, 0.2), (0.5, 0.1), (-0.5, -0.1)])
-def test_the_electric_field_of_a_plate_leans_as_it_does(E: tuple[float, float]) -> None:
+def test_a_steep_electric_field_is_drawn_in_its_direction(E: tuple[float, float]) -> None:
     """Where it is steep the arrow has its direction; else it is drawn steeper, in the same quadrant."""
     (arrow,) = layers("magn", Arrow, "electric", E=E)
     direction = np.asarray(arrow.tip)[1:] / np.linalg.norm(arrow.tip)

@@ -185,7 +185,7 @@ def test_every_refusal_of_a_recipe_is_reached_and_named() -> None:
 
 
 @pytest.mark.parametrize(("name", "parameters"), GOOD)
-def test_the_last_parameters_that_are_drawn(name: str, parameters: dict[str, Any]) -> None:
+def test_parameters_just_inside_the_domain_are_drawn(name: str, parameters: dict[str, Any]) -> None:
     """Just inside the border there is a scene, with something in each panel."""
     scene = recipes.load(name).scene(**parameters)
     assert all(panel.layers for panel in scene.panels)

@@ -69,7 +69,7 @@ def test_a_caption_begins_with_the_picture(name: str) -> None:
 
 
 @pytest.mark.parametrize("ratio", [0.5, 1.5])
-def test_a_marked_motion_repeats_itself(ratio: float) -> None:
+def test_a_motion_marked_as_closed_returns_to_its_start(ratio: float) -> None:
     """After q turns of the precession an integration of the equations of motion finds R = 1 again, within 1e-8."""
     above, below = panels("frequencies", ratio=ratio)
     names = {Fraction(label.text.strip("$")) for label in layers(below, Label, "label")}
@@ -179,7 +179,7 @@ def test_the_solenoid_flies_as_a_charge_does_and_its_axis_keeps_its_angle() -> N
     assert np.ptp(axes[:, 0]) > 0.1
 
 
-def test_a_ball_is_refused_a_ratio_that_none_has() -> None:
+def test_an_impossible_ratio_of_frequencies_of_a_ball_is_refused() -> None:
     """gamma/alpha is at least |1 + m3/alpha|; the sentence has the one asked for, the least, and the way out."""
     with pytest.raises(DomainError, match=r"gamma/alpha = 0\.1 is below .* = 1\.625, .* nearer to -0\.8"):
         panels("ball_torus", ratios=(0.1,), turns=(1.0,))

@@ -76,7 +76,7 @@ def test_all_ten_parameters_of_attitudes_lie_within_their_covariance(attitudes: 
     assert attitudes.undetermined == ()
 
 
-def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
+def test_the_error_of_a_prediction_is_within_its_band(attitudes: Any) -> None:
     """Against an integration, long after the data, and so does its horizon."""
     t = np.linspace(60.0, 120.0, 7)
     steps = atlas.simulate(RATIO, ATTITUDE.inv().apply(FIELD), OMEGA, t, rtol=1e-12)
@@ -92,7 +92,7 @@ def test_a_prediction_keeps_to_its_band(attitudes: Any) -> None:
 
 @pytest.mark.parametrize("family", ["general", "elementary"])
 @pytest.mark.parametrize("kind", ["rotation", "axis", "angular_velocity", "field_in_body", "signal"])
-def test_slopes_agree_with_the_residuals(kind: str, family: str) -> None:
+def test_derivatives_agree_with_differences_of_residuals(kind: str, family: str) -> None:
     """By central differences, of residuals that are small, as they are where least squares end."""
     t = np.linspace(0.1, 5, 9)
     values = {"ratio": RATIO} | dict(
@@ -199,7 +199,7 @@ def test_drag_is_reported() -> None:
 
 
 @pytest.mark.slow
-def test_a_wider_family_is_named() -> None:
+def test_the_family_that_explains_the_data_better_is_named() -> None:
     """Of a body with three moments, fitted as a symmetric one, the family that has it is named."""
     t, _ = measured("rotation", 60, 15.0)
     R = atlas.AsymmetricMotion((0.8, 1.0, 1.3), FIELD, OMEGA).rotation(t)
@@ -226,7 +226,7 @@ def test_the_small_nutation_of_a_fast_spin_is_found_in_axes(seed: int) -> None:
 
 
 @pytest.mark.slow
-def test_noisy_rates_that_are_followed_are_not_doubted() -> None:
+def test_noisy_rates_with_the_expected_chi_square_raise_no_doubt() -> None:
     """Noise as large as the changes of the rates is no doubt where chi square is as expected."""
     rng, t = np.random.default_rng(0), np.linspace(0.0, 40.0, 400)
     true = atlas.GeneralMotion(RATIO, FIELD[1:], omega=OMEGA).angular_velocity(t)
@@ -255,7 +255,7 @@ def test_times_may_come_in_any_order() -> None:
 
 
 @pytest.mark.slow
-def test_a_fit_is_shown(attitudes: Any) -> None:
+def test_a_fit_is_shown_as_text_html_figure_and_data(attitudes: Any) -> None:
     """As text, in a notebook, as a figure of two panels, and as plain data."""
     assert "reduced chi square" in str(attitudes)
     assert "<table>" in attitudes._repr_html_()
@@ -278,7 +278,7 @@ def fitted_signal(start: Any) -> Any:
 
 
 @pytest.mark.slow
-def test_a_process_returns_a_fit(attitudes: Any) -> None:
+def test_a_fit_survives_copying_and_pickling(attitudes: Any) -> None:
     """With its parameters, its motion and its predictions, all equal; and so do copies and pickles."""
     start = {"ratio": RATIO, **{f"B{i}": x for i, x in enumerate(FIELD, 1)}}
     start |= {f"omega{i}": x for i, x in enumerate(OMEGA, 1)} | {"a1": 0.0, "a2": 0.0, "a3": 0.0}
@@ -382,7 +382,7 @@ def test_solutions_that_are_equal_by_symmetry_are_listed(family: str, signal: An
 
 @pytest.mark.parametrize("fixed", [(), ("B1", "B2"), ("B1", "B2", "B3")])
 @pytest.mark.parametrize("family", ["general", "asymmetric", "elliptic"])
-def test_slopes_in_the_attitude_agree_with_motions_beside(family: str, fixed: tuple[str, ...]) -> None:
+def test_derivatives_in_the_attitude_agree_with_neighbouring_motions(family: str, fixed: tuple[str, ...]) -> None:
     """Whether the field is free, partly free or zero: a rotation of the laboratory turns the field."""
     t = np.linspace(0, 3, 30)
     data = of_arrays(t, {"signal": (np.ones((30, 3)), diagonal)}, 1.0, 0.0, scalar_first=False)
@@ -485,7 +485,7 @@ def test_the_command_fits_a_file(tmp_path: Path) -> None:
     assert record["sigma"] == NOISE
 
 
-def test_the_command_ends_with_one_where_solutions_are_equal(tmp_path: Path) -> None:
+def test_the_command_has_status_one_where_several_solutions_are_equal(tmp_path: Path) -> None:
     """Of a file with R11, R22, R33, from a start so that none is sought."""
     t = np.linspace(0, 20, 200)
     values = diagonal(model_of("general").make(TRUTH).rotation(t))
@@ -499,7 +499,7 @@ def test_the_command_ends_with_one_where_solutions_are_equal(tmp_path: Path) -> 
     assert sum(alternative["equal"] for alternative in record["alternatives"]) == 3
 
 
-def test_the_command_knows_the_families() -> None:
+def test_the_command_lists_the_families_of_the_fit() -> None:
     """Its names, which it lists without loading them, are those of the fit."""
     from atlas.cli import fit
     from atlas.fitting import FittedFamily, Loss
@@ -511,7 +511,7 @@ def test_the_command_knows_the_families() -> None:
 
 
 @pytest.mark.slow
-def test_other_families_are_found() -> None:
+def test_a_free_body_and_a_heavy_top_are_fitted() -> None:
     """A free body, and a heavy top in a known direction."""
     rng = np.random.default_rng(3)
     t = np.linspace(0, 20, 120)
@@ -528,7 +528,7 @@ def test_other_families_are_found() -> None:
 
 
 @pytest.mark.slow
-def test_three_moments_are_found() -> None:
+def test_a_body_with_three_moments_is_fitted_without_a_start() -> None:
     """From attitudes without a start, in steps of an integration, with errors and predictions of the closed form."""
     rng = np.random.default_rng(4)
     t = np.sort(rng.uniform(0, 15, 60))
@@ -556,7 +556,7 @@ def test_an_elliptic_motion_names_its_undetermined_parameters() -> None:
 
 
 @pytest.mark.slow
-def test_tops_are_found_from_rates() -> None:
+def test_tops_are_fitted_to_rates() -> None:
     """The direction of the field in the body is sought; the turn about it is not seen."""
     rng = np.random.default_rng(6)
     t = np.linspace(0, 15, 80)
@@ -576,7 +576,7 @@ def test_tops_are_found_from_rates() -> None:
         pytest.param(lambda R: R[:, 0, 0] / 2 + R[:, 1, 2], id="one", marks=pytest.mark.slow),
     ],
 )
-def test_a_signal_of_few_numbers_is_enough(quantity: Any) -> None:
+def test_a_signal_of_one_or_two_numbers_determines_ratio_and_field(quantity: Any) -> None:
     """Two numbers, or a single one, that a function makes of R tell the ratio and the size of the field."""
     rng = np.random.default_rng(7)
     t = np.sort(rng.uniform(0, 20, 150))
@@ -641,7 +641,7 @@ def test_given_start_values_begin_the_fit() -> None:
 
 
 @pytest.mark.slow
-def test_a_fast_turn_by_little_is_found() -> None:
+def test_a_slow_ball_in_a_strong_field_is_fitted() -> None:
     """Of a ball in a strong field, whose body turns slowly: within five standard errors."""
     fast = KINDS["ball, attitudes"](np.random.default_rng([0, 25]))
     b = atlas.fit(fast.t, **fast.given).params["b"]
@@ -712,7 +712,7 @@ def test_a_rotation_vector_follows_a_small_turn() -> None:
         assert np.abs((np.subtract(*ends) / (2 * h)).T + J).max() <= 1e-8
 
 
-def test_a_top_from_rest_is_determined() -> None:
+def test_a_top_that_starts_from_rest_is_determined() -> None:
     """Undetermined parameters are measured by how fast the data change, not by the rate at the start, which is none."""
     tilted = [0.0, float(np.sin(0.3)), float(np.cos(0.3))]
     t = np.linspace(0.0, 20.0, 200)
@@ -741,7 +741,7 @@ def test_a_top_from_rest_is_determined() -> None:
         ("--fix ratio=1.4 ratio=1.5", "ratio is given twice"),
     ],
 )
-def test_a_value_that_cannot_be_is_refused_by_name(
+def test_an_impossible_value_is_refused_by_name(
     words: str, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It is neither moved to a bound nor dropped."""
@@ -790,7 +790,7 @@ def test_a_bound_below_all_errors_has_no_horizon(attitudes: Any, tmp_path: Path)
 
 
 @pytest.mark.parametrize("epoch", [np.nan, np.inf])
-def test_an_epoch_is_a_number(epoch: float) -> None:
+def test_an_epoch_that_is_no_number_is_refused_by_name(epoch: float) -> None:
     """It is named where it is none."""
     t, R = measured("rotation", 10)
     with pytest.raises(AtlasError, match="epoch"):

@@ -100,7 +100,7 @@ def test_without_a_frame_the_user_is_in_the_laboratory() -> None:
     assert flight.position(np.array([[0.0, 1.0], [1.5, 2.0]])).shape == (2, 2, 3)
 
 
-def test_the_flight_of_an_elementary_motion() -> None:
+def test_a_point_of_an_elementary_motion_flies_as_a_taylor_series_says() -> None:
     """With the closed form for R, the point of a body in the user's frame goes where the Taylor series says."""
     flight = Flight(PARTICLE, ElementaryMotion(1.5, FRAME.field, 0.7), [0.3, -0.1, 0.7], FRAME)
     start = (0.0, 0.7, flight.motion.omega3)
@@ -163,7 +163,7 @@ def test_the_field_of_a_turned_body_agrees_with_the_laboratory() -> None:
         Flight(atlas.ParticleMotion.in_field(field, (0, 0, 0), (1, 0, 0)), motion, (0.1, 0, 0))
 
 
-def test_a_top_may_fly_anywhere() -> None:
+def test_a_top_may_fly_in_a_field_of_any_direction() -> None:
     """Its direction, which is given as a field is, is none."""
     top = atlas.TopMotion.in_laboratory((1, 0.5), (0, 0, 1), ATTITUDE, START, coupling=(0, 0), linear=1.0)
     assert np.abs(Flight(PARTICLE, top, [0, 0, 1]).position(0.0) - PARTICLE.y0 - [0, 0, 1]).max() <= 4 * EPS

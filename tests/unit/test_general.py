@@ -84,7 +84,7 @@ def long_times(motion: GeneralMotion, seed: int) -> Any:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
-def test_every_entry_is_true_up_to_a_million_periods(inputs: Any) -> None:
+def test_every_entry_is_within_6_ulp_up_to_a_million_periods(inputs: Any) -> None:
     """Entries of R are within 6 ulp of 1 of the balls, on ordinary and on extreme inputs."""
     motion = GeneralMotion(*inputs)
     times = long_times(motion, 1)
@@ -102,7 +102,7 @@ def test_single_times_are_as_accurate_as_arrays(inputs: Any) -> None:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
-def test_every_entry_is_true_at_short_times(inputs: Any) -> None:
+def test_every_entry_is_within_6_ulp_at_short_times(inputs: Any) -> None:
     """Entries of R are within 6 ulp of 1 also where a phase is short beside that at t = 0."""
     motion = GeneralMotion(*inputs)
     period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
@@ -111,7 +111,7 @@ def test_every_entry_is_true_at_short_times(inputs: Any) -> None:
 
 
 @pytest.mark.parametrize("inputs", ORDINARY + EXTREME)
-def test_the_grid_is_the_same_motion(inputs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_coarse_grid_agrees_with_its_exact_times(inputs: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A uniform grid across t = 0 that is not fine meets the exact times start + i step to 12 ulp of 1."""
     motion = GeneralMotion(*inputs)
     period = motion.period if np.isfinite(motion.period) else 10 / max(map(abs, (*motion.omega, *motion.field)))
@@ -222,7 +222,7 @@ def test_an_attitude_is_kept_whichever_part_of_its_quaternion_is_largest() -> No
 
 
 @pytest.mark.parametrize("name", BORDERS)
-def test_there_is_no_gap_at_a_border(name: str) -> None:
+def test_motions_are_continuous_where_their_kind_changes(name: str) -> None:
     """From both sides, one ulp and 1e-12 away, R for |t| <= 1/size leaves that of the border by as little."""
     inputs, value = BORDERS[name]
     motion_at = GeneralMotion(*inputs(value))

@@ -171,7 +171,7 @@ def test_a_motion_without_a_period_does_not_stop_the_others() -> None:
     assert count == 5 * 2 + 3 * 3
 
 
-def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ordinary_motions_of_an_array_are_not_evaluated_singly(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 3000 ordinary motions, and as many that start at a turning point, none is made alone for kind and period."""
     made_singly = []
     standing = general.standing
@@ -194,7 +194,7 @@ def test_few_ordinary_motions_are_made_alone(monkeypatch: pytest.MonkeyPatch) ->
     assert len(made_singly) <= 40
 
 
-def test_no_motions_have_no_scalars() -> None:
+def test_empty_arrays_have_empty_scalars() -> None:
     """Arrays without rows give arrays without rows."""
     none = GeneralMotion(np.ones(0), (1.0, 2.0), (0.3, 0.7, 0.2))
     assert none.kind.shape == none.period.shape == none.spin_per_period.shape == (0,)

@@ -61,7 +61,7 @@ def inputs_at(inputs: Any, i: int) -> tuple[float, tuple[float, ...], tuple[floa
 
 
 @pytest.mark.parametrize("power", POWERS)
-def test_omega_meets_the_taylor_series(power: int) -> None:
+def test_omega_agrees_with_the_taylor_series(power: int) -> None:
     """Alone and in arrays Omega is that of the equations themselves, integrated to 40 digits of the fastest rate."""
     I, B, omega, _ = inputs = motions(power, 3, 1)
     t = 4.0 / abs(np.concatenate([B, omega])).max(axis=0)

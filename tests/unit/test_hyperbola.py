@@ -44,7 +44,7 @@ def test_the_branches_lie_on_either_side_of_the_pole_and_reach_out_evenly(
         assert 0.5 * reach < np.abs(b + field[1])[np.abs(a - curve.pole).argmin()] < 4 * reach
 
 
-def test_the_parameter_is_hyperbolic() -> None:
+def test_the_parameter_of_a_branch_is_the_logarithm_of_its_distance_from_the_pole() -> None:
     """X = ± sqrt|1-I| |B2| e^s, and s = 0 is where the parts of Y are equal: the vertex line of the curve."""
     curve, s = Hyperbola(1.5, (1.0, 2.0)), np.linspace(-1, 1, 5)
     (x, y), (u, v) = curve.branches(s)
@@ -152,7 +152,7 @@ def test_flat_bodies_and_steep_fields_have_no_unstable_band(ratio: float, tau: f
     assert Hyperbola(ratio, (1.0, tau)).unstable_band is None
 
 
-def test_named_points_and_asymptotes() -> None:
+def test_named_points_lie_on_the_curve_and_asymptotes_have_their_directions() -> None:
     """Rest, -2 B' and the zero of omega3 lie on the curve; the asymptotes are e3 and I^-1 B'."""
     curve = Hyperbola(1.5, (1.0, 2.0))
     assert set(curve.special) == {"omega2 = 0", "omega2 = -2 B2", "omega2 = -(2-I) B2"}

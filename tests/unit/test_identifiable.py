@@ -45,7 +45,7 @@ def rank(moments: np.ndarray, field: np.ndarray, omega: np.ndarray) -> int:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
-def test_a_general_motion_tells_its_body(seed: int) -> None:
+def test_a_general_motion_determines_its_body_up_to_a_factor(seed: int) -> None:
     """The six unknowns are determined but for one factor, with three moments and with two equal ones."""
     chance = np.random.default_rng(seed)
     a1, second, third = chance.uniform(0.2, 1, 3)

@@ -26,7 +26,7 @@ def test_numbers_of_any_kind_become_floats() -> None:
 
 @pytest.mark.parametrize("place", range(4))
 @pytest.mark.parametrize("bad", [np.inf, -np.inf, np.nan])
-def test_computed_values_are_finite_everywhere(place: int, bad: float) -> None:
+def test_a_value_that_is_not_finite_is_reported_wherever_it_stands(place: int, bad: float) -> None:
     """One value that is not, of a number, of an array, and in any member of several, is told; none passes as it is."""
     array = np.arange(4.0)
     values_good = (1.0, array, np.ones((2, 2)), 3.0)
@@ -46,7 +46,7 @@ def test_a_masked_array_without_masked_values_is_accepted() -> None:
         inputs.real(np.ma.masked_array([1.0, 2.0], [False, True]), "x")
 
 
-def test_shapes_that_do_not_broadcast_are_one_sentence() -> None:
+def test_shapes_that_do_not_broadcast_are_refused_in_one_sentence() -> None:
     """The sentence holds the shapes."""
     assert inputs.common_shape((3, 1), (2,), ()) == (3, 2)
     with pytest.raises(AtlasError, match=r"^The shapes \(3,\), \(2,\) [^\n]*\.$"):
@@ -94,7 +94,7 @@ def test_other_inputs_are_refused_by_their_name(
     ],
 )
 @pytest.mark.parametrize("kind", [np.array, list])
-def test_a_square_array_is_no_vectors_in_rows(make: Callable[[Any], Any], kind: Callable[[Any], Any]) -> None:
+def test_a_square_array_is_refused_as_a_list_of_vectors(make: Callable[[Any], Any], kind: Callable[[Any], Any]) -> None:
     """Three vectors would be read as three others, transposed, where two or four are an error; a tuple is clear."""
     rows = [[0.3, 0.7, 0.2], [0.1, 0.5, 0.4], [0.9, 0.2, 0.6]]
     with pytest.raises(atlas.AtlasError, match=r"in the rows or in the columns of a square array: give a tuple"):
@@ -124,7 +124,7 @@ def test_a_series_is_its_values_and_a_table_no_vector() -> None:
 
 
 @pytest.mark.parametrize("axes", [[1.0, 2.0], "x", np.full((3, 3), np.nan)])
-def test_axes_of_a_body_are_a_matrix(axes: Any) -> None:
+def test_axes_of_a_body_that_are_no_matrix_are_refused(axes: Any) -> None:
     """Nothing else is kept for those who ask later."""
     with pytest.raises(AtlasError, match="The axes must"):
         atlas.SymmetricBody(1.0, 0.5, axes)

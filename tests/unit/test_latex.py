@@ -114,7 +114,7 @@ def test_words_formulas_and_citations_are_latex(made: Path) -> None:
 
 
 @pytest.mark.parametrize(("name", "kind", "width"), [("curves", "figure", 86.0), ("wide", "figure*", 178.0)])
-def test_a_figure_is_made_for_its_place(made: Path, name: str, kind: str, width: float) -> None:
+def test_a_figure_has_the_width_of_its_place_in_the_paper(made: Path, name: str, kind: str, width: float) -> None:
     """A column or both, and put there at the size it has: LaTeX scales nothing."""
     text = (made / "figures" / f"{name}.tex").read_text("utf-8")
     assert f"\\begin{{{kind}}}" in text
@@ -268,7 +268,7 @@ def test_a_table_is_as_wide_and_as_high_as_its_words(letters: tuple[int, ...], c
 
 @pytest.mark.slow
 @needs_latex
-def test_a_table_higher_than_a_page_goes_on(made: Path) -> None:
+def test_a_table_higher_than_a_page_continues_on_the_next(made: Path) -> None:
     """All its rows are printed, with the heads again on the second page; a lower one stays in one piece."""
     column = ColumnView(0, None, numeric=False, before=0.0, after=0.0)
     words = "words that are broken into several lines, " * 4

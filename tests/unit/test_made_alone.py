@@ -89,7 +89,7 @@ def test_a_top_with_the_integrals_of_a_spin_moves_as_balls_do(k3: float) -> None
 
 
 @pytest.mark.parametrize(("slope", "start"), [(0.7, 0.0), (0.7, 1.3), (-3e-5, 2e9), (1e120, -1e3), (2.0, -1e-30)])
-def test_a_line_is_known_to_two_words(slope: float, start: float) -> None:
+def test_a_linear_phase_is_accurate_in_double_double(slope: float, start: float) -> None:
     """Slope times t + start at times in two words, to 2^-100 of its terms, the first word being their sum rounded."""
     with ctx.workprec(400):
         a, b = arb(slope) / 3, arb(start) / 7

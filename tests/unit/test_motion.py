@@ -55,7 +55,7 @@ BODIES = {
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::atlas.errors.NearlySymmetricWarning")
 @pytest.mark.parametrize("name", BODIES)
-def test_bodies_in_odd_axes_move_as_an_integrator_says(name: str) -> None:
+def test_bodies_in_any_axes_agree_with_an_integrator(name: str) -> None:
     """Attitude, both angular velocities, field in the body, quaternion, momentum, in the axes that were given."""
     I, family = BODIES[name]
     seed = list(BODIES).index(name)
@@ -162,7 +162,7 @@ def test_three_numbers_last_are_moments(kind: Any) -> None:
     assert np.array_equal(motions.rotation(1.0)[0], atlas.motion(kind(rows[0]), *FIELD_AND_START).rotation(1.0))
 
 
-def test_arrays_have_each_motion_of_their_own() -> None:
+def test_each_element_of_an_array_is_the_motion_of_its_inputs() -> None:
     """Ratios, fields, starts and attitudes broadcast, with each other and with times."""
     rng, t = np.random.default_rng(4), np.linspace(-2, 2, 5)
     ratios, B, w, A = (
@@ -242,13 +242,13 @@ def test_later_changes_of_given_arrays_have_no_effect_on_copies() -> None:
         (lambda: atlas.ElementaryMotion(1.5, (1, 2), omega=(1, 2, 3)), "omega, which is for atlas.motion"),  # type: ignore[call-arg]
     ],
 )
-def test_an_argument_of_another_class_is_led_there(call: Any, says: str) -> None:
+def test_an_argument_of_another_class_names_that_class(call: Any, says: str) -> None:
     """The line names the class that takes it, and the arguments of this one."""
     with pytest.raises(TypeError, match=says):
         call()
 
 
-def test_every_class_takes_the_laboratory() -> None:
+def test_every_class_takes_attitude_and_field_of_the_laboratory() -> None:
     """R(0) is the attitude, n or B' and the angular velocity are where they were given; a wrong class is refused."""
     A, B, w = turn(8), np.array([0.3, -1.0, 2.0]), np.array([0.3, 0.7, 0.2])
     for family_class, body, field, options in (

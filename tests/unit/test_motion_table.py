@@ -53,7 +53,7 @@ def test_attitudes_of_a_tensor_are_in_the_axes_given(tmp_path: Path) -> None:
     ("options", "words"),
     [((), "gives? it|give one of them"), (("--times", "1", "--digits", "9"), "--out writes doubles")],
 )
-def test_a_table_that_cannot_be_is_refused(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
+def test_an_impossible_table_is_refused(tmp_path: Path, options: tuple[str, ...], words: str) -> None:
     """Without times, and with proven digits."""
     outcome = CliRunner().invoke(program, [*COMMANDS["general"].split(), *options, "--out", str(tmp_path / "att.csv")])
     assert re.search(words, str(outcome.exception) + outcome.output)

@@ -34,7 +34,7 @@ node = shutil.which("node")
 @pytest.mark.slow
 @pytest.mark.skipif(node is None, reason="node runs the script, and it is not installed")
 @pytest.mark.parametrize("name", ["flight", "rolling_cones", "tipping_disk"])
-def test_the_script_carries_a_scene_as_the_paths_do(name: str) -> None:
+def test_the_script_moves_a_scene_along_its_paths(name: str) -> None:
     """Between two moments of the table forms, planes, arrows and dots are those of the scene at that time."""
     scene = recipes.load(name).scene()
     u = 0.37123

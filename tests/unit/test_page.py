@@ -182,7 +182,7 @@ def test_the_code_of_a_page_gives_its_numbers(page_file: Path) -> None:
 
 
 @pytest.mark.slow
-def test_the_code_of_a_page_asks_for_no_number_that_there_is_not(tmp_path: Path) -> None:
+def test_the_code_of_a_page_requests_existing_numbers_only(tmp_path: Path) -> None:
     """At rest the mean rates are zero; there are no angles of a period, no modulus and no nome."""
     page_made = Path(page("--ratio 1.5 --field 0 0 --omega 0 0 0", tmp_path)[0])
     (code,) = reader.fromstring(page_made.read_bytes()).xpath("//main//pre[contains(., 'import atlas')]")
@@ -334,7 +334,7 @@ def test_the_code_of_a_page_has_the_names_of_the_class(unbuilt: Callable[[str], 
     assert out.getvalue().split() == ["-1.0", "0.5"]
 
 
-def test_no_heading_stands_above_closed_motions_that_there_are_not(unbuilt: Callable[[str], dict[str, Any]]) -> None:
+def test_without_closed_motions_a_page_has_no_heading_for_them(unbuilt: Callable[[str], dict[str, Any]]) -> None:
     """The axis of a body without a field goes round a circle: there is no fraction, and a sentence says why."""
     texts = [
         block.get("text", "") for block in unbuilt("--ratio 1.5 --field 0 0 --omega 0.3 0.7 0.2")["pages"][0]["blocks"]
@@ -506,7 +506,7 @@ def test_convergents_are_best_fractions() -> None:
     assert list(convergents(1 / arb(10_001.5))) == [(0, 1)]
 
 
-def test_plain_words_get_their_letters() -> None:
+def test_letters_in_plain_words_become_formulas() -> None:
     """Letters of the register's words become formulas, powers are raised, and other words stay."""
     assert lettered("semi-axis along omega'_2, 1/B2^2") == r"semi-axis along $\omega'_2$, 1/$B_2$^2^"
     assert lettered("Components of B' = mu B/(2c)") == r"Components of $\mathbf{B}'$ = $\mu$ $\mathbf{B}$/(2c)"

@@ -62,7 +62,7 @@ def test_position_and_velocity_solve_the_equation(
 
 @pytest.mark.slow
 @given(vectors, vectors, st.sampled_from([1.0, -1.0]), st.integers(-1000, 0))
-def test_the_field_can_go_to_zero(E: Any, B: Any, mu: float, power: int) -> None:
+def test_a_particle_moves_continuously_as_the_field_goes_to_zero(E: Any, B: Any, mu: float, power: int) -> None:
     """As B -> 0 by powers of two, the path goes over to the parabola of (90), with no loss on the way."""
     y0, v0, t = np.array([0.3, -0.2, 0.1]), np.array([1.0, 2.0, -0.5]), 1.5
     weak = ParticleMotion(mu, E, B * 2.0**power, y0, v0).position(t)
@@ -156,7 +156,7 @@ def test_a_turn_that_takes_longer_than_any_float_is_refused() -> None:
             _ = motion.period
 
 
-def test_times_of_any_shape() -> None:
+def test_times_may_have_any_shape() -> None:
     """A time gives a vector, an array of times an array of them, none of them none."""
     p = ParticleMotion(1, [1, 0, 0], [0, 0, 1], ORIGIN, ORIGIN)
     t = np.linspace(0, 1, 6).reshape(2, 3)

@@ -96,7 +96,7 @@ def test_single_times_are_as_accurate_as_arrays(
         assert max(abs(2 * c - values_array[0][0]), abs(2 * s - values_array[1][0])) <= (PROVEN + 2) * UNIT
 
 
-def test_one_time_of_no_and_of_extreme_frequencies() -> None:
+def test_a_frequency_of_zero_stands_still_and_an_extreme_one_is_refused() -> None:
     """A frequency of zero stands still; beyond 2^50, at infinity and for NaN the time is refused."""
     assert Phases([fmpq(0), in_turns(1e-300)]).circle_of_one(1e200) == [(0.5, 0.0, 0.0), (0.5, 5e-101, 2.5e-201)]
     for t in (2.0**51, -np.inf, np.nan):
@@ -141,7 +141,7 @@ def test_one_less_the_cosine_keeps_its_digits() -> None:
     assert max(errors) < 6
 
 
-def test_a_time_in_two_words_is_taken_whole() -> None:
+def test_both_words_of_a_time_enter_its_phase() -> None:
     """A phase f (t + low), low below the last digit of t, is that of the exact sum, and not that of t."""
     phases = Phases([fmpq(1, 3)])
     for start in (1e14, 1e4):

@@ -26,7 +26,7 @@ def test_points_and_units_agree_with_the_table(ending: str, tmp_path: Path) -> N
     assert (np.diff(np.asarray(phi.get_ydata())) < 0.0).all()
 
 
-def test_holes_are_left_out_and_deviations_are_bars(tmp_path: Path) -> None:
+def test_empty_cells_are_left_out_and_deviations_are_drawn_as_bars(tmp_path: Path) -> None:
     """An empty cell is no point; y_sigma beside y is its error."""
     table = tmp_path / "own.csv"
     table.write_text("# made by hand\nx [s],y,y_sigma\n0,1,0.5\n1,,0.5\n2,3,0.25\n", encoding="utf-8")

@@ -213,7 +213,7 @@ def test_a_corrected_form_refutes_the_printed_one(name: str) -> None:
     assert case.corrected != case.printed or case.corrected_model not in {None, case.model}
 
 
-def test_counterexample_of_the_cubic_by_hand() -> None:
+def test_the_counterexample_of_the_cubic_holds_by_hand() -> None:
     """The second derivative (46) agrees with the cubic (48) if that has (2-I)^2, not if (2-1)^2."""
     counterexample = RECORDED["(48)"].counterexample
     spin, field = (
@@ -237,7 +237,7 @@ def test_counterexample_of_the_cubic_by_hand() -> None:
     assert cubic(Fraction(1)) == Fraction(counterexample["right"]) != true
 
 
-def test_counterexample_of_the_multipliers_by_hand() -> None:
+def test_the_counterexample_of_the_multipliers_holds_by_hand() -> None:
     """1.38: one multiplier between particles 4 and 6, particle 1 at (1, 0, 0), all others at the origin."""
     counterexample = RECORDED["(9)"].counterexample
     assert counterexample["lam[4,6]"] == "1"
@@ -248,7 +248,7 @@ def test_counterexample_of_the_multipliers_by_hand() -> None:
     assert -Fraction(1, 2) * (-2 * 1 * 1) == Fraction(counterexample["right"]) == 1
 
 
-def test_the_lines_that_equation_52_leaves_out_by_hand() -> None:
+def test_the_lines_that_equation_52_leaves_out_obey_equation_50_by_hand() -> None:
     """Every point with omega2 = -B2, omega1^2 = (1-I) B2^2 obeys (50), whatever omega3 is."""
     B2, B3, ratio, w1, w2 = Fraction(2), Fraction(3), Fraction(3, 4), Fraction(1), Fraction(-2)
     assert w1**2 == (1 - ratio) * B2**2
@@ -256,7 +256,7 @@ def test_the_lines_that_equation_52_leaves_out_by_hand() -> None:
         assert B3 * (w1**2 + w2**2) - ratio * B2 * w2 * w3 + (2 - ratio) * B2 * B3 * w2 - ratio * B2**2 * w3 == 0
 
 
-def test_the_end_of_the_unstable_band_by_hand() -> None:
+def test_the_end_of_the_unstable_band_is_a_triple_root_by_hand() -> None:
     """I = 1/2, B' = (0, 3, 1), omega = (0, -3/2, -2): p = p' = 0, p'' = 6, and Q = (1-I) v^3 (4 B3 - v)."""
     ratio, B2, B3, w2, w3 = Fraction(1, 2), 3, 1, Fraction(-3, 2), Fraction(-2)
     c3, square, energy = w3 + B3, B2**2 + B3**2, w2**2 + ratio * w3**2
@@ -272,7 +272,7 @@ def test_the_end_of_the_unstable_band_by_hand() -> None:
         assert quartic == (1 - ratio) * v**3 * (4 * B3 - v)
 
 
-def test_counterexample_of_the_combined_conditions_by_hand() -> None:
+def test_the_counterexample_of_the_combined_conditions_holds_by_hand() -> None:
     """A point off omega1 = 0 obeys both (65) and (66)."""
     counterexample = RECORDED["text-combining"].counterexample
     w1, w2, w3, B2, ratio, B3 = (
@@ -322,7 +322,7 @@ def test_a_correction_that_is_wrong_too_turns_the_run_red() -> None:
     assert broken.true_form.of_printed().decision == "refuted"
 
 
-def test_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_trial_out_of_time_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     """A proof that takes too long proves nothing."""
 
     def forever() -> Model:

@@ -6,7 +6,7 @@ from atlas.errors import AtlasError
 from atlas.trial.proofs.formula import value
 
 
-def test_functions_are_letters_too() -> None:
+def test_a_formula_takes_functions_and_names_a_missing_one() -> None:
     """The caller defines d, and a function that is not given is missed."""
     assert value("(37)", "0", d=lambda square: square, K=[1, 2, 3]) == 14
     with pytest.raises(AtlasError, match="needs the value of d too"):

@@ -67,7 +67,7 @@ def numbers(cell: str) -> list[float]:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_published_values_are_met(case: str) -> None:
+def test_published_values_are_reproduced(case: str) -> None:
     """Within the error of the source; the guide prints the reference, and the computed value to its last digit."""
     computed, tolerance = CASES[case][0](), CASES[case][1]
     tables: list[Any] = [
@@ -82,7 +82,7 @@ def test_published_values_are_met(case: str) -> None:
         )
 
 
-def test_the_free_body_of_kane_is_met() -> None:
+def test_the_free_body_of_kane_is_reproduced() -> None:
     """By the formulas of section 1.13 of Spacecraft Dynamics, whose phases of up to 70 rad lose 1e-14 in doubles."""
     body, (x, y, z) = atlas.motion((0.04, 0.04, 0.02), (0, 0, 0), (2.0, 4.0, 6.0)), (2.0, 4.0, 6.0)
     t = np.linspace(0.0, 10.0, 20)
@@ -99,7 +99,7 @@ def test_the_free_body_of_kane_is_met() -> None:
     assert_allclose(body.quaternion(t), sign[:, None] * np.transpose(expected), rtol=0, atol=1e-14)
 
 
-def test_two_of_five_simulators_are_right() -> None:
+def test_two_of_five_published_simulators_are_reproduced() -> None:
     """Simulators 1 and 4 of NASA's brick, in angular velocity and attitude; the others lose it by their steps."""
     rates, angles = (
         [layer for layer in panel.layers if isinstance(layer, Curve)] for panel in recipe("simulators").scene().panels

@@ -71,7 +71,7 @@ def test_the_quaternion_agrees_with_the_matrix_and_the_equation_of_motion(name: 
 
 @EVERY
 @pytest.mark.parametrize("start", [-70.0, 1e6, -3e11])
-def test_quaternion_does_not_jump(name: str, start: float) -> None:
+def test_the_quaternion_is_continuous_in_time(name: str, start: float) -> None:
     """Neighbours on a fine grid far away lie beside each other, and the order of the times does not matter."""
     if name == "without a closed form":
         return
@@ -123,7 +123,7 @@ def test_scalar_first_is_the_order_of_spice() -> None:
     assert np.array_equal(MOTIONS["free"]().quaternion(0.0), [0, 0, 0, 1])
 
 
-def test_angular_velocity_in_the_laboratory_is_the_turned_one() -> None:
+def test_angular_velocity_in_the_laboratory_is_the_matrix_times_that_in_the_body() -> None:
     """R Omega; of a free body it precesses about the angular momentum, which stays."""
     m = atlas.FreeMotion(0.6, (0.3, 0.7, 1.1))
     t = np.linspace(-5, 5, 11)

@@ -87,7 +87,7 @@ def test_toutatis_turns_as_astronomers_print() -> None:
 
 @pytest.mark.parametrize("I3", [0.6, 1.5])
 @pytest.mark.parametrize("omega", [(0.2, 0.3, 1.5), (0.2, 0.3, -1.5), (0.0, 0.0, 1.5)])
-def test_rates_of_a_free_body_go_on_where_two_moments_become_equal(I3: float, omega: Vector) -> None:
+def test_rates_of_a_free_body_are_continuous_where_two_moments_become_equal(I3: float, omega: Vector) -> None:
     """Whichever class answers; for moments that are equal precession goes with |m|/I1."""
     symmetric = atlas.motion((1, 1, I3), (0, 0, 0), omega)
     assert symmetric.precession_rate == pytest.approx(np.linalg.norm(np.multiply((1, 1, I3), omega)), rel=1e-14)
@@ -117,7 +117,7 @@ def test_rates_of_an_elliptic_motion_agree_with_the_axis_that_the_field_goes_rou
 
 
 @pytest.mark.parametrize("omega2", [0.7, -0.4, -3.0])
-def test_rates_of_an_elliptic_motion_go_on_to_the_elementary_one(omega2: float) -> None:
+def test_rates_of_an_elliptic_motion_become_those_of_the_elementary_one(omega2: float) -> None:
     """Of a body with I1 = I2 they are k and phi."""
     I, B = 1.5, (1.0, 2.0)
     motion_elementary = atlas.ElementaryMotion(I, B, omega2)

@@ -62,7 +62,7 @@ def elementary(omega2: float = OMEGA2, field: tuple[float, float] = (B2, B3)) ->
     return values
 
 
-def test_the_cells_of_named_points() -> None:
+def test_the_cells_of_named_points_agree_with_their_formulas() -> None:
     """omega2, omega3, k, phi and the nutation frequency squared at each point, in ascending order."""
     with mp.workdps(40):
         i, b2, b3 = mpf(I), mpf(B2), mpf(B3)
@@ -85,7 +85,7 @@ def test_a_point_at_the_pole_is_noted_below_the_table() -> None:
     assert not table("points", omega2=[0.25]).notes
 
 
-def test_the_cells_of_the_quadric() -> None:
+def test_the_cells_of_the_quadric_agree_with_their_formulas() -> None:
     """Ratio, both angles, a2, a3, the semi-axes, and the centre -B'."""
     with mp.workdps(40):
         q = closed_form.quadric(1, I, B2, B3)
@@ -104,13 +104,13 @@ def of_the_motion(ratio: float) -> tuple[mpf, ...]:
     return (w2, w3, motion.k, motion.phi, square, w2**2 + i * w3**2, b2**2 + b3**2, c3, c5, w2 * b2 + i * w3 * b3)
 
 
-def test_the_cells_of_a_motion() -> None:
+def test_the_cells_of_a_motion_agree_with_their_formulas() -> None:
     """Initial data, frequencies, nutation and the integrals."""
     with mp.workdps(40):
         holds(table("motion", omega2=OMEGA2), *((value,) for value in of_the_motion(I)))
 
 
-def test_the_cells_of_a_data_sheet() -> None:
+def test_the_cells_of_a_data_sheet_agree_with_their_formulas() -> None:
     """Quadric and motion of each body in its column, on the same rows; a ball has no semi-axes."""
     ratios = (1.6, 0.45, 1.0)
     with mp.workdps(40):
@@ -138,7 +138,7 @@ def test_a_data_sheet_says_that_a_motion_is_unstable() -> None:
     assert row[2:4] == ("unstable", "stable")
 
 
-def test_the_cells_of_a_motion_at_some_times() -> None:
+def test_the_cells_of_a_motion_at_some_times_agree_with_their_formulas() -> None:
     """Time, Omega(t) of (73) and the third column of (84)."""
     with mp.workdps(40):
         rows = []
@@ -149,7 +149,7 @@ def test_the_cells_of_a_motion_at_some_times() -> None:
         holds(table("samples", omega2=OMEGA2, times=TIMES), *rows)
 
 
-def test_the_cells_of_a_path() -> None:
+def test_the_cells_of_a_path_agree_with_their_formulas() -> None:
     """Time and y(t) by the exponential of the linear system; frequency mu |B|/c and drift c [E,B]/B^2 in the note."""
     with mp.workdps(40):
         rows = [(mpf(t), *closed_form.particle(MU, E, B, POSITION, VELOCITY, t).y) for t in TIMES]
@@ -163,7 +163,7 @@ def test_the_cells_of_a_path() -> None:
             assert is_rounding(number, true)
 
 
-def test_the_cells_of_a_flight() -> None:
+def test_the_cells_of_a_flight_agree_with_their_formulas() -> None:
     """Time, the centre of mass, and the point y_0 + R x; the body turns in B' = mu B/2."""
     with mp.workdps(40):
         rows = []
@@ -177,7 +177,7 @@ def test_the_cells_of_a_flight() -> None:
         holds(table("flight", field=MAGNET, **parameters), *rows)
 
 
-def test_the_cells_of_the_ball() -> None:
+def test_the_cells_of_the_ball_agree_with_their_formulas() -> None:
     """m2, m3, alpha as given; gamma and the axis of (29)."""
     with mp.workdps(40):
         ball = closed_form.ball(1, 0.45, 0.3, -0.7)
@@ -186,7 +186,7 @@ def test_the_cells_of_the_ball() -> None:
         holds(data, *((value,) for value in values))
 
 
-def test_the_cells_of_companions() -> None:
+def test_the_cells_of_companions_agree_with_their_formulas() -> None:
     """The quartic of theorem-top over (nu - r)^2 is A nu^2 + 2 A r nu + C, whose value at r is c; here C is exact."""
     motions = [[B2, B3, -0.7], [3.0, 1.0, -1.5]]
     with mp.workdps(40):
@@ -205,7 +205,7 @@ def test_the_cells_of_companions() -> None:
         holds(table("companions", digits=9, ratio=0.5, motions=motions), *rows)
 
 
-def test_the_cells_of_body_and_field() -> None:
+def test_the_cells_of_body_and_field_agree_with_their_formulas() -> None:
     """The inputs; the moments of a shell, their ratio, mu, and B' of (32), where e2 makes B'_2 positive."""
     shell = Body(title="shell", shape="cylindrical_shell", mass=0.75, radius=0.25, height=0.375, charge=-0.3)
     magnet = Field(title="magnet", B=(0.0, 3.0, 4.5), E=(0.5, 0.0, -2.5))
@@ -220,7 +220,7 @@ def test_the_cells_of_body_and_field() -> None:
         holds(table("body_and_field", bodies=[shell], field=magnet), *((value,) for value in (*values, *follows)))
 
 
-def test_the_cells_of_charges() -> None:
+def test_the_cells_of_charges_agree_with_their_formulas() -> None:
     """Mass, radius, charge mu m0 and e/(4 pi eps0 r^2), to two digits."""
     bodies = [
         Body(title=name, shape="sphere", mass=m, radius=r) for name, m, r in (("a", 9e-15, 2e-6), ("b", 3.0, 0.4))
@@ -232,7 +232,7 @@ def test_the_cells_of_charges() -> None:
     holds(table("charges", bodies=bodies, field=Field(title="m", B=B, charge_to_mass=MU)), *rows)
 
 
-def test_the_cells_of_diamagnetism() -> None:
+def test_the_cells_of_diamagnetism_agree_with_their_formulas() -> None:
     """(I3 - I2) |mu B|^2/8, and the energy -(m, B)/2 of a thin wall along the field less across it, to two digits."""
     tube = Body(title="tube", shape="cylindrical_shell", mass=6e-15, radius=1e-6, height=4e-6)
     hoop = Body(title="hoop", shape="ring", mass=3e-16, radius=2e-6)
@@ -247,7 +247,7 @@ def test_the_cells_of_diamagnetism() -> None:
     holds(table("diamagnetism", bodies=[tube, hoop], field=magnet, susceptibility=chi, density=rho), *rows)
 
 
-def test_the_cells_of_bodies_that_could_exist() -> None:
+def test_the_cells_of_bodies_that_could_exist_agree_with_their_formulas() -> None:
     """Charge, elementary charges, mu, b, its period, the angle between m and B, and J b^2/k_B, to two digits."""
     surface, density, magnet, eps0 = 1e9, 2500.0, 10.0, 8.8541878188e-12
     parameters = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
@@ -263,7 +263,7 @@ def test_the_cells_of_bodies_that_could_exist() -> None:
     holds(compute("sizes", Request((), parameters, 2)), *rows)
 
 
-def test_the_cells_of_radiation() -> None:
+def test_the_cells_of_radiation_agree_with_their_formulas() -> None:
     """Energy over power in Julian years: Larmor's formula, a magnetic dipole, an electric quadrupole, in SI units."""
     surface, density, magnet, eps0, c = 1e9, 2500.0, 10.0, 8.8541878188e-12, 299_792_458.0
     parameters = {"radii": [1e-6, 2e-2], "density": density, "surface_field": surface, "magnet": magnet}
@@ -283,7 +283,7 @@ def test_the_cells_of_radiation() -> None:
     holds(compute("radiation", Request((), parameters, 2)), *rows)
 
 
-def test_the_cells_of_fits() -> None:
+def test_the_cells_of_fits_count_fits_within_their_errors() -> None:
     """Found in 97 % at least, fast spins in 90; within one standard error in 68 %, up to 5 or twice its error."""
     record = json.loads((folder("reports") / "data" / "fits.json").read_text(encoding="utf-8"))
     rows = [(row["found"], row["within"], row["seconds"]) for row in record.values()]
@@ -307,7 +307,7 @@ def test_a_table_of_doubles_says_that_they_are_not_proven(name: str) -> None:
     assert any("not proven" in note for note in data.notes)
 
 
-def test_no_table_is_left_out() -> None:
+def test_every_table_has_a_test_of_its_cells() -> None:
     """Each table has a test of its cells above, or in another file."""
     tested = {"points", "quadric", "sheet", "motion", "samples", "particle", "flight", "ball", "body_and_field"}
     words = {

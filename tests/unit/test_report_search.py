@@ -125,7 +125,7 @@ def test_an_equation_is_named_where_it_is_cited(files: dict[str, str]) -> None:
     assert "hyperbola" in link.get("title").lower()
 
 
-def test_the_front_page_shows_the_report(files: dict[str, str]) -> None:
+def test_the_front_page_shows_a_picture_of_each_page(files: dict[str, str]) -> None:
     """The figure that the report names, and a picture of each page that has one."""
     page = reader.fromstring(files["index.html"])
     assert page.xpath("//a[@class='cover']/@href") == ["second.html#fig-curve"]
@@ -160,7 +160,7 @@ def test_the_head_of_a_column_is_one_line(files: dict[str, str]) -> None:
     assert not [head for head in heads if head.xpath(".//p")]
 
 
-def test_related_reports_stand_beside(files: dict[str, str], tmp_path: Path) -> None:
+def test_every_page_links_the_related_reports(files: dict[str, str], tmp_path: Path) -> None:
     """Each page leads to the reports that are named, whose indices its script reads; an unknown name is an error."""
     for name in ("index.html", "second.html"):
         assert reader.fromstring(files[name]).xpath("//nav//a/@data-beside") == ["../atlas/"]

@@ -138,7 +138,9 @@ def test_a_column_of_mixed_sizes_has_powers_of_ten() -> None:
         ("0", True, None),
     ],
 )
-def test_where_powers_of_ten_begin(values: str, plain: bool, prefix: int | None) -> None:
+def test_columns_have_powers_of_ten_for_small_large_and_mixed_numbers(
+    values: str, plain: bool, prefix: int | None
+) -> None:
     """A column has them below 1e-4, from 1e7 on and beyond six decades; its unit takes them in thousands."""
     exact = [Fraction(value) for value in values.split()]
     rationals = [flint.fmpq(value.numerator, value.denominator) for value in exact]
@@ -270,7 +272,7 @@ def test_a_table_of_more_than_two_dozen_rows_may_be_broken_over_pages() -> None:
         assert table.tall == table.tight == (count > 24)
 
 
-def test_tops_of_a_table_have_the_period_of_a_quadrature() -> None:
+def test_periods_of_tops_in_a_table_agree_with_a_quadrature() -> None:
     """T of a released heavy top and of a spherical pendulum, by 4000 points of Gauss and Chebyshev, to ten digits."""
     tops = [
         {"name": "top", "ratio": 0.5, "direction": [0.6, 0.8], "omega": [0.0, 0.0, 5.0], "linear": 1.0},
@@ -318,7 +320,7 @@ def test_the_monodromy_of_a_table_agrees_with_its_loop() -> None:
     assert float(row[7].digits) < 0.25
 
 
-def test_the_keys_of_a_block_that_are_called_needed_are(tmp_path: Path) -> None:
+def test_the_required_keys_of_a_block_are_those_without_which_it_is_refused(tmp_path: Path) -> None:
     """A block with these alone is read; without any one of them it is refused by its name."""
     values = {"columns": '["a"]', "rows": '[["b"]]', "names": '["Quadric"]', "source": '"trial"', "section": '"II"'}
     page = '[[pages]]\nslug = "index"\ntitle = "t"\n[[pages.blocks]]\n'

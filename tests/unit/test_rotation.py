@@ -133,7 +133,7 @@ def test_columns_agree_with_the_matrix() -> None:
         motion.column(0, t)
 
 
-def test_out_is_filled() -> None:
+def test_the_array_out_is_filled_and_returned() -> None:
     """`out` is returned filled."""
     motion, t, out = ElementaryMotion(*MOTION), np.linspace(0, 1, 5), np.empty((5, 3, 3))
     assert motion.rotation(t, out=out) is out

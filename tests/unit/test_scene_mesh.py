@@ -49,7 +49,7 @@ def test_no_face_leaves_its_surface(tolerance: float) -> None:
         ).max() < 2.0 * tolerance_drawn
 
 
-def test_light_is_right_between_corners() -> None:
+def test_shades_between_corners_are_within_half_a_step() -> None:
     """The mean of the normals of two neighbours differs from the normal between them by half a shade at most."""
     for surface in pieces(1e-2):
         grid = surface.grids[0]
@@ -100,7 +100,7 @@ def test_a_solid_ends_at_its_rims(angle: float) -> None:
         assert np.abs(corners).min(axis=1).max() <= 1e-14
 
 
-def test_solids_know_no_unit() -> None:
+def test_solids_do_not_depend_on_the_unit_of_length() -> None:
     """Lengths and the tolerance an eighth as large make the same faces, an eighth as large."""
 
     def surfaces_of(unit: float) -> list[Surface]:

@@ -36,7 +36,7 @@ def test_curves_outside_the_box_are_not_refined() -> None:
 
 
 @pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 1e-3])
-def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
+def test_both_bends_of_an_s_are_found(tolerance: float) -> None:
     """An S crosses its chord in the middle; its two bellies are found all the same."""
     points = curve(lambda s: np.stack([s, s * (s * s - 1.0)], axis=-1), -1.0, 1.0, tolerance, pieces=1)
     s = np.linspace(-1.0, 1.0, 4001)
@@ -44,7 +44,7 @@ def test_a_bend_and_its_counterbend_do_not_deceive(tolerance: float) -> None:
     assert np.abs(ordinates - s * (s * s - 1.0)).max() < 1.6 * tolerance  # upright, where it is steeper than 45 degrees
 
 
-def test_a_flat_curve_knows_paper_and_view() -> None:
+def test_a_flat_curve_is_sampled_for_its_size_on_paper() -> None:
     """Drawn twice as wide and high it takes more points; parts outside its limits take none."""
     circle = lambda s: np.stack([np.cos(s), np.sin(s)], axis=-1)  # noqa: E731  a curve in one line
     window, upper = ((-1.0, 1.0), (-1.0, 1.0)), ((-1.0, 1.0), (0.0, 1.0))

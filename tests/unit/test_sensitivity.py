@@ -228,7 +228,7 @@ def test_sensitivity_in_given_axes_is_a_difference_quotient(inputs: Any, size: f
 
 @pytest.mark.parametrize("turn", [(0.4, 0.1, -0.6), (0.0, 0.0, 0.0)])
 @pytest.mark.parametrize("size", [1e-6, 1e-9, 1e-14])
-def test_sensitivity_in_one_component_along_a_weak_field(turn: Any, size: float) -> None:
+def test_sensitivity_keeps_its_digits_along_a_weak_field(turn: Any, size: float) -> None:
     """ReportRequest for alone: terms of the size of 1/|B'| cancel where inputs of the class are combined."""
     A, omega = Rotation.from_rotvec(turn).as_matrix(), (0.2, -0.3, 0.9)
     columns = [[rational(x) for x in column] for column in A.T.tolist()]
@@ -246,7 +246,7 @@ def test_sensitivity_in_one_component_along_a_weak_field(turn: Any, size: float)
         assert not top.sensitivity(3.0, f"B{j + 1}").any()  # only the direction counts
 
 
-def test_scalars_have_derivatives() -> None:
+def test_derivatives_of_period_and_rates_agree_with_differences() -> None:
     """Of a nutation its period and rates, by differences of motions; of two turns the frequencies."""
     h, inputs = 1e-4, ((1.0, 2.0), (0.3, 0.7, 0.2))
     motions = [atlas.GeneralMotion(1.5 + n * h, *inputs) for n in (-2, -1, 0, 1, 2)]
@@ -259,7 +259,7 @@ def test_scalars_have_derivatives() -> None:
 
 
 @pytest.mark.slow
-def test_sensitivity_of_a_body_with_three_moments() -> None:
+def test_sensitivity_of_three_moments_is_the_difference_of_two() -> None:
     """By theta functions: against a difference of motions in all inputs at once, and along the motion at any time."""
     x = np.array([0.8, 1.0, 1.3, 0.2, 1.0, 0.6, 0.3, 0.7, 0.2])
     names = [f"{name}{i}" for name in ("I", "B", "omega") for i in (1, 2, 3)]
@@ -285,7 +285,7 @@ def test_sensitivity_of_a_body_with_three_moments() -> None:
 
 
 @pytest.mark.parametrize("omega", [(0.3, 0.7, 0.2), (0.1, 2.0, 0.3), (0.0, 0.0, 0.9)])
-def test_sensitivity_of_a_free_body_with_three_moments(omega: tuple[float, ...]) -> None:
+def test_sensitivity_of_a_free_body_of_three_moments_is_the_difference_of_two(omega: tuple[float, ...]) -> None:
     """By differences of motions, and along the motion at any time; its neighbours in a field are on a torus."""
     x, names = np.array([0.8, 1.0, 1.3, *omega]), [f"{name}{i}" for name in ("I", "omega") for i in (1, 2, 3)]
     way, h, t = np.array([0.3, -0.2, 0.5, -0.6, 0.2, 0.9]), 1e-5, np.array([0.7, -20.0, 1e9])

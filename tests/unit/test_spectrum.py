@@ -75,7 +75,7 @@ def test_a_transform_of_a_long_grid_shows_the_lines() -> None:
     assert size[~is_seen].max() < 1e-3
 
 
-def test_lines_of_an_elementary_motion() -> None:
+def test_an_elementary_motion_has_two_lines() -> None:
     """The axis has one along the field and one of precession, k = omega2 b/B2, (79), cos and sin of their angle."""
     lines = atlas.ElementaryMotion(1.5, (3.0, 4.0), 0.6).spectrum("axis")
     assert lines.names == ("precession",)

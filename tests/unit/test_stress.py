@@ -78,7 +78,7 @@ def test_a_record_can_be_reproduced_from_its_hexadecimal_input(short_run: Result
 
 
 @pytest.mark.parametrize(("threshold", "is_seen"), [(1.0, False), (0.7, True)])
-def test_small_entries_are_promised_before_they_are_large(
+def test_digits_of_small_entries_are_promised_at_short_phases(
     threshold: float, is_seen: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """R13 and R23 keep their own digits for |kt| < 1, where a slip is seen; near a zero of sin kt nobody says so."""
@@ -140,7 +140,7 @@ def test_an_error_is_counted_in_units_of_the_last_place(x: float, steps: int) ->
     assert measured <= abs(steps) * (1 + 1e-9)
 
 
-def test_nan_is_infinitely_wrong() -> None:
+def test_nan_counts_as_an_infinite_error() -> None:
     """NaN never passes; an infinity passes only where the number is beyond the doubles."""
     assert error(math.nan, arb(1), 1.0) == math.inf
     assert error(math.inf, arb(1), 1.0) == math.inf

@@ -74,7 +74,7 @@ def plain(heading: str) -> list[str]:
     return [name.partition(" [")[0] for name in heading.strip().split(",")]
 
 
-def test_one_quantity_may_be_a_word() -> None:
+def test_a_single_quantity_may_be_given_as_a_word() -> None:
     """Its letters are not taken for the names of quantities."""
     parameters = {"ratio": 1.5, "B2": 1.0, "B3": 2.0, "omega2": [0.3, 0.7]}
     assert [*atlas.sweep("elementary", parameters, "period")] == [*parameters, "period"]
@@ -224,7 +224,7 @@ def test_every_format_holds_the_same_table(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", [name for name, swept in FAMILIES.items() if swept.family.at_once > 1])
-def test_rows_leave_no_garbage(name: str) -> None:
+def test_finished_rows_leave_nothing_to_the_garbage_collector(name: str) -> None:
     """Objects of many rows are free as soon as these are done: a garbage collector, slow beside Dask, has no work."""
     swept, count = FAMILIES[name], 16
     required = [p for p in swept.family.parameters if p.needed]
@@ -362,7 +362,7 @@ def test_certified_digits_round_to_the_floats(family: str, names: list[str]) -> 
         assert [float(text) for text in texts[name]] == floats[name].tolist()
 
 
-def test_a_list_and_flags_say_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_list_and_options_give_the_same_table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The same rows from flags and from a CSV list give the same table."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rows.csv").write_text("inertia,larmor,m2,m3\n1,0.5,0.2,0.1\n1,0.5,0.2,0.3\n")

@@ -36,7 +36,7 @@ MILLIMETRE = 72.0 / 25.4
     ("name", "target"),
     [pytest.param(*pair, marks=[pytest.mark.slow] * (pair not in FEW)) for pair in PAIRS],
 )
-def test_a_figure_keeps_the_law_of_its_target_or_is_refused(name: str, target: str) -> None:
+def test_a_figure_keeps_the_limits_of_its_target_or_is_refused(name: str, target: str) -> None:
     """It has the width, the type and the lines that are asked; no text leaves the page or covers another.
 
     A figure that cannot is refused in one line; on a journal's whole page and on a poster none is.
@@ -166,7 +166,7 @@ def test_a_drawing_keeps_its_shape_and_leaves_no_empty_rows() -> None:
     assert sum(after.rows) == after.size[1] < 80.0
 
 
-def test_a_poster_has_all_larger() -> None:
+def test_a_poster_enlarges_text_lines_and_marks_alike() -> None:
     """Type, lines, marks and the page grow together: a line is as wide beside a letter as in a journal."""
     x = np.linspace(0.0, 1.0, 9)
     scene = Scene("A line", "A caption.", "A line.", (Plane((Curve(np.stack([x, x], axis=1), "main"),), "$x$", "$y$"),))
@@ -217,7 +217,7 @@ def test_savefig_keeps_the_settings_of_the_target(tmp_path: Path) -> None:
         assert picture.width == pytest.approx(85.0 / 25.4 * 600.0, abs=1.0)
 
 
-def test_a_style_of_the_user_does_not_break_the_law(tmp_path: Path) -> None:
+def test_a_style_of_the_user_does_not_break_the_limits_of_a_target(tmp_path: Path) -> None:
     """Demands of a target come after the style: small type, thin lines and Type 3 fonts are put right."""
     style = {"font.size": 4.0, "xtick.labelsize": 4.0, "axes.linewidth": 0.1, "pdf.fonttype": 3}
     scene = recipes.load("trochoids").scene()
@@ -233,7 +233,7 @@ def test_an_unknown_target_is_named() -> None:
         atlas.figure("cone", target="elsewier")
 
 
-def test_a_recipe_declares_a_number(tmp_path: Path) -> None:
+def test_the_least_width_of_a_recipe_is_written_as_a_number(tmp_path: Path) -> None:
     """The least width is a number written out."""
     file = tmp_path / "mine.py"
     file.write_text('"""Mine."""\nNARROWEST = "wide"\ndef scene(): ...\n', encoding="utf-8")
@@ -242,7 +242,7 @@ def test_a_recipe_declares_a_number(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("line", ["NARROWEST, LOW = 99.0, 1.0", "NARROWEST = 99.0\nNARROWEST = 2.0"])
-def test_a_constant_of_a_recipe_is_not_passed_over(tmp_path: Path, line: str) -> None:
+def test_a_constant_declared_twice_is_an_error(tmp_path: Path, line: str) -> None:
     """Two names on a line, or two lines for a name, are an error: the first was ignored, and so was the last."""
     file = tmp_path / "mine.py"
     file.write_text(f'"""Mine."""\n{line}\ndef scene(): ...\n', encoding="utf-8")

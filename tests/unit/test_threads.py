@@ -125,7 +125,7 @@ def test_values_do_not_depend_on_the_precision_that_flint_has(name: str) -> None
         assert answers_alone(name) == expected
 
 
-def test_the_value_of_a_parent_does_not_stand_for_that_of_its_subclass() -> None:
+def test_a_value_of_a_parent_class_is_not_taken_for_that_of_its_subclass() -> None:
     """While a subclass makes its value from its parent's, another thread makes its own, and gets the subclass's."""
     values, inside, go_on = list[int](), Event(), Event()
 

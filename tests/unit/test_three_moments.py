@@ -37,7 +37,7 @@ def small(source: str) -> str:
     return f"{head}+++\n{head_text}{kept}\nHere $v=$ @cell:family-4-2, as @clebsch1871.\n\n```{{bibliography}}\n```\n"
 
 
-def test_the_letter_is_about_one_body() -> None:
+def test_the_letter_uses_one_body_and_field_throughout() -> None:
     """Its figures are of recipes that are there; each table has the body and the field that the sentences speak of."""
     figures = [block for block in BLOCKS if isinstance(block, Figure)]
     assert figures

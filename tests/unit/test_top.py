@@ -51,7 +51,7 @@ CASES = {
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.slow] * (k % 4 > 0)) for k, name in enumerate(CASES)]
 )
-def test_balls_hold_the_taylor_integration(name: str) -> None:
+def test_balls_contain_the_taylor_integration(name: str) -> None:
     """R(t) and Omega(t) as balls hold the values of an integration to 30 digits, at two times."""
     times = [0.5, 1.75]
     with ctx.workprec(200):

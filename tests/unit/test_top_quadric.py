@@ -222,7 +222,7 @@ CYLINDER = (1.0, 0.5), (0.5, 0.0), (-2.0, 0.0), 3.0, 0.0
 
 
 @pytest.mark.parametrize("top", [*TOPS.values(), CYLINDER])
-def test_branches_reach_as_far_along_both_asymptotes(top: tuple) -> None:
+def test_branches_reach_equally_far_along_both_asymptotes(top: tuple) -> None:
     """|w| ends at `reach` times b, and begins where |v|, but for its part along the other asymptote, is that.
 
     b is the distance of the centre from rest, or if larger sqrt|D|, or for n3 = 0 that of |n2 a0|/(I2 |n|).

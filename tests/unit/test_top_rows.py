@@ -112,7 +112,7 @@ def test_tops_beyond_the_rows_are_evaluated_singly_and_once() -> None:
     assert motion._single(0) is motion._single(0)
 
 
-def test_the_turn_about_the_axis_joins_where_the_quartic_becomes_a_cubic() -> None:
+def test_the_turn_about_the_axis_is_continuous_where_the_quartic_becomes_a_cubic() -> None:
     """A = 0 exactly, 1e-6 to 1e-15 on both sides of it, and far below, where two roots are complex: none made alone."""
     small = [side * 10.0**-n for n in range(6, 16) for side in (-1, 1)]
     tops = [
@@ -146,7 +146,7 @@ def test_scalars_in_arrays_agree_with_single_tops_to_the_bit(name: str) -> None:
     np.testing.assert_array_equal(np.transpose(many.turning_points), [atlas.TopMotion(*x).turning_points for x in tops])
 
 
-def test_where_the_sums_are_cut_the_angle_of_spin_is_not_of_an_array() -> None:
+def test_tops_nearly_upright_are_evaluated_singly() -> None:
     """Tops all but upright, whose theta functions would need more terms than rows have: the bits of the top alone."""
     random = Random(7)  # noqa: S311  reproducible, not secret
     tops = [TOPS["top, axis near the vertical"](random) for _ in range(37)]

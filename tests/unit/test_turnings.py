@@ -138,7 +138,7 @@ def test_free_bodies_and_balls_in_arrays_agree_with_one_by_one() -> None:
     assert np.array_equal(np.stack([k2, k3], -1), each_hat)
 
 
-def test_special_cases_stand_side_by_side() -> None:
+def test_one_array_may_hold_every_special_case() -> None:
     """An array that holds every case gives each its name, frequencies and matrix."""
     I = [0.5, 1.5, 0.5, 1.0, 1.5, 0.7]
     B2, B3 = [0.0, 0.0, 2.0, 2.0, 1.0, 1.0], [0.0, -3.0, 0.0, 1.0, 2.0, 2.0]

@@ -37,7 +37,7 @@ def test_results_are_correlated_with_inputs_and_with_one_another() -> None:
     assert (motion.k - motion.k).std_dev == 0
 
 
-def test_one_input_at_two_places_moves_both() -> None:
+def test_an_input_used_twice_is_fully_correlated() -> None:
     """A field that is known up to its strength b: k and phi of b omega are b times those of 1, whatever b is."""
     b = ufloat(2.0, 0.01)
     motion = atlas.ElementaryMotion(1.5, (b, 2 * b), omega2=0.5 * b)
@@ -45,7 +45,7 @@ def test_one_input_at_two_places_moves_both() -> None:
     assert motion.phi.std_dev == pytest.approx(abs(motion.phi.nominal_value) * 0.01 / 2)
 
 
-def test_a_matrix_scatters_as_its_draws_do() -> None:
+def test_deviations_of_a_matrix_agree_with_draws() -> None:
     """Entries of R, and their correlation, against 4000 motions."""
     ratio, B3 = ufloat(1.3, 0.003), ufloat(2.0, 0.002)
     R = atlas.motion(ratio, (0.0, 1.0, B3), OMEGA).rotation([0.0, 3.0])

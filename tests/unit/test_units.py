@@ -32,7 +32,7 @@ def test_the_constants_agree_with_codata() -> None:
     assert abs(codata("vacuum mag. permeability") / units.MAGNETIC_CONSTANT - 1) < 1e-9
 
 
-def test_larmor_frequency_of_an_electron_in_one_tesla() -> None:
+def test_the_larmor_frequency_of_an_electron_in_one_tesla_is_14_gigahertz() -> None:
     """It is the Bohr magneton in Hz/T, 13.996 GHz, and turns about -B: mu is negative."""
     mu = units.charge_to_mass(-units.ELEMENTARY_CHARGE, codata("electron mass"))
     prime = units.larmor_field(mu, 1.0)
@@ -42,7 +42,7 @@ def test_larmor_frequency_of_an_electron_in_one_tesla() -> None:
     assert units.cyclotron_frequency(mu, 1.0) == 2 * prime
 
 
-def test_the_same_motion_in_both_systems() -> None:
+def test_gaussian_and_si_units_give_the_same_motion() -> None:
     """A proton in E and B moves alike, metre for 100 cm, whether its data are Gaussian or SI."""
     mu, B, E = (
         units.charge_to_mass(units.ELEMENTARY_CHARGE, codata("proton mass")),
@@ -125,7 +125,7 @@ def _q(request: pytest.FixtureRequest) -> Units:
     return cast("Units", units.Quantity)
 
 
-def test_a_body_is_in_kilograms_and_metres(q: Units) -> None:
+def test_units_of_a_body_are_converted_to_kilograms_and_metres(q: Units) -> None:
     """Grams and centimetres are turned into them, plain numbers beside them are in SI."""
     assert atlas.SymmetricBody.ring(q(2.0, "g"), q(5.0, "cm")) == atlas.SymmetricBody.ring(2e-3, 0.05)
     assert pytest.approx(2e-3 * 0.05**2 / 2) == atlas.SymmetricBody.solid_cylinder(2e-3, q(5.0, "cm"), 0.25).I3
@@ -138,7 +138,7 @@ def test_a_body_is_in_kilograms_and_metres(q: Units) -> None:
     assert top.linear == pytest.approx(5e-3)
 
 
-def test_a_field_is_in_tesla(q: Units) -> None:
+def test_units_of_a_field_are_converted_to_radians_a_second(q: Units) -> None:
     """B' in rad/s is mu B/2, whatever the multiples given."""
     mu = charge_to_mass(q(3.0, "mC"), q(2.0, "g"))
     assert mu == pytest.approx(1.5)
@@ -148,7 +148,7 @@ def test_a_field_is_in_tesla(q: Units) -> None:
     assert larmor_field(1.5, q(2.0, "mT")) == pytest.approx(1.5e-3)
 
 
-def test_a_motion_is_in_radians_a_second(q: Units) -> None:
+def test_units_of_a_motion_are_converted_to_radians_a_second(q: Units) -> None:
     """Rates and times: the same bits as from the numbers in SI; milliseconds are converted."""
     plain = atlas.GeneralMotion(1.5, (1.0, 2.0), (0.3, 0.7, 0.2))
     motion = atlas.GeneralMotion(1.5, q([1.0, 2.0], "rad/s"), tuple(q(w, "rad/s") for w in (0.3, 0.7, 0.2)))
@@ -163,7 +163,7 @@ def test_a_motion_is_in_radians_a_second(q: Units) -> None:
     assert "<table>" in atlas.Quadric(1.5, q([1.0, 2.0], "rad/s"))._repr_html_()
 
 
-def test_a_top_is_in_si(q: Units) -> None:
+def test_units_of_a_top_are_converted_to_si(q: Units) -> None:
     """Lagrange's top under its weight, and a ball's momentum."""
     body = atlas.SymmetricBody.disk(q(100.0, "g"), q(3.0, "cm"))
     top = atlas.TopMotion.heavy(body, q(9.81, "m/s**2"), q(4.0, "cm"), (0.3, 1), (0, 0, 150), mass=q(100.0, "g"))
@@ -173,7 +173,7 @@ def test_a_top_is_in_si(q: Units) -> None:
     assert atlas.BallMotion(q(1.0, "g m**2"), 1.0, q([1.0, 2.0], "g m**2 / s")).arguments["inertia"] == 1e-3
 
 
-def test_a_particle_is_in_si(q: Units) -> None:
+def test_units_of_a_particle_are_converted_to_si(q: Units) -> None:
     """Where c = 1; with another c the units would be Gaussian, and plain numbers are asked for."""
     arguments = (q(1.0, "C/kg"), q([0, 500, 0], "mV/m"), q([0, 0, 1], "T"), q([0, 0, 0], "mm"), q([100, 0, 0], "cm/s"))
     plain = atlas.ParticleMotion(1.0, (0, 0.5, 0), (0, 0, 1), (0, 0, 0), (1, 0, 0))
@@ -198,7 +198,9 @@ def test_a_particle_is_in_si(q: Units) -> None:
         (lambda q: atlas.sweep("ball", {"larmor": q([1.0], "rad/s"), "m2": 1, "m3": 1}, ["gamma"]), "without a unit"),
     ],
 )
-def test_another_dimension_is_one_line(q: Units, refused_call: Callable[[Units], Any], says: str) -> None:
+def test_a_unit_of_another_dimension_is_refused_in_one_line(
+    q: Units, refused_call: Callable[[Units], Any], says: str
+) -> None:
     """The input, its parameter, and the remedy."""
     with pytest.raises(atlas.AtlasError, match=re.escape(says)) as refused:
         refused_call(q)

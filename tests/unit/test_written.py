@@ -147,7 +147,7 @@ def test_a_full_disk_keeps_existing_files(tmp_path: Path, words: str) -> None:
 
 
 @pytest.mark.parametrize("reads", ["", pytest.param("cat >/dev/null; ", marks=pytest.mark.slow)])
-def test_an_ffmpeg_that_fails_is_one_line(tmp_path: Path, reads: str) -> None:
+def test_a_failure_of_ffmpeg_is_reported_in_one_line(tmp_path: Path, reads: str) -> None:
     """Its message is passed on, whether it goes at once or after the last frame."""
     program = tmp_path / "ffmpeg"
     program.write_text(f"#!/bin/sh\n{reads}echo 'No space left on device' >&2\nexit 1\n")

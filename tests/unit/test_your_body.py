@@ -58,7 +58,7 @@ def request_of(words: str | list[str]) -> ReportRequest:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_cards_numbers_are_kept(name: str, snapshot: SnapshotAssertion) -> None:
+def test_the_numbers_of_cards_are_unchanged(name: str, snapshot: SnapshotAssertion) -> None:
     """Digits, proven digits, units and reasons of each case, and its title."""
     request = request_of(CASES[name])
     result = card(request)
