@@ -9,7 +9,7 @@ import numpy as np
 from atlas.arithmetic.inputs import FloatArray
 from atlas.bodies.integrals import shape_factors
 from atlas.pictures import Curve, Label, Layer, Region, Scene
-from atlas.pictures.captions import body_name, listed, plain, plain_setting, plain_vector, tex, tex_setting
+from atlas.pictures.captions import body_role, listed, plain, plain_setting, plain_vector, tex, tex_setting
 from atlas.pictures.hyperbola_plane import asymptote, branches, components, marked, places, unstable, window
 
 ROW = "a body"
@@ -130,7 +130,7 @@ def caption(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, 
 def alt(ratio: float, field: tuple[float, float], bands: tuple[tuple[float, float], ...]) -> str:
     """Return the figure's alternative text, in words alone; the arguments are those of `caption`."""
     view = components(field)
-    shape = "two branches of a hyperbola" if all(view) and body_name(ratio) != "ball" else "straight lines"
+    shape = "two branches of a hyperbola" if all(view) and body_role(ratio) != "ball_body" else "straight lines"
     unstable_words = (
         "Unstable are the motions with omega 2 from "
         + listed([f"{plain(a)} to {plain(b)}" for a, b in bands], "and from")

@@ -8,7 +8,7 @@ import numpy as np
 
 from atlas.errors import AtlasError
 from atlas.pictures import Curve, Layer, Points, Scene
-from atlas.pictures.captions import body_name, body_role, listed, plain, plain_vector, quotient, tex, tex_vector
+from atlas.pictures.captions import body_role, listed, plain, plain_vector, quotient, tex, tex_vector
 from atlas.pictures.hyperbola_plane import Window, asymptote, branches, components, marked, places, window
 from atlas.pictures.style import LINES
 
@@ -33,8 +33,9 @@ def scene(
         raise AtlasError(f"ratios must hold one to {len(LINES)} values of I, not {len(ratios)}.")
     view, (B2, B3) = window(field, reach), components(field)
     layers = [*_straight(ratios, field, view), *_curves(ratios, field, view), *_points(ratios, field)]
-    bodies = listed([f"a {body_name(ratio)} ($I={tex(quotient(ratio))}$)" for ratio in ratios])
-    spoken = listed([f"a {body_name(ratio)} with I = {plain(quotient(ratio))}" for ratio in ratios])
+    bodies = f"bodies with $I=$ {listed([f'${tex(quotient(ratio))}$' for ratio in ratios])}"
+    spoken = f"bodies with I = {listed([plain(quotient(ratio)) for ratio in ratios])}"
+
     ball = any(quotient(ratio) == 1.0 for ratio in ratios)
     pole = r"asymptote $\omega_2=-B'_2$, a line of the ball" if ball else "dotted asymptote"
     return Scene(

@@ -17,7 +17,7 @@ from atlas.arithmetic.inputs import FloatArray
 from atlas.errors import DomainError
 from atlas.maps.trace_map import trace_map
 from atlas.pictures import Curve, Image, Label, Layer, Plane, Points, Scene
-from atlas.pictures.captions import body_name, listed, tex, tex_vector
+from atlas.pictures.captions import listed, tex, tex_vector
 from atlas.pictures.hyperbola_plane import Window, branches, places
 from atlas.sweeps.plan import Range, Tabulation
 
@@ -61,9 +61,7 @@ def scene(
     end = "b" if len(ratios) > 1 else "a"
     max_swing = STEP * float(np.ceil(np.max(swings) / STEP))
     panels = tuple(
-        panel(
-            f"({letter}) {body_name(I)}, $I={tex(I)}$", I, field, edges, swing.T, ends, unit, max_swing, letter == end
-        )
+        panel(f"({letter}) $I={tex(I)}$", I, field, edges, swing.T, ends, unit, max_swing, letter == end)
         for letter, I, swing, *ends in zip("abcd", ratios, swings, least, largest, strict=False)
     )
     return Scene(
@@ -71,7 +69,7 @@ def scene(
             r"Amplitude of the nutation, zero on the hyperbola (white), against the initial angular velocity "
             rf"$(0,\omega_2,\omega_3)$, $\mathbf{{B}}'={tex_vector((0.0, *field))}$. Open dot: rest; "
             r"diamond: $-2\mathbf{B}'$. In the wedges with a dotted edge the axis draws loops, elsewhere, also "
-            "along the hyperbola, waves. For a long solenoid the map jumps at the separatrices."
+            "along the hyperbola, waves. For $I<1$ the map jumps at the separatrices."
         ),
         alt=(
             f"Maps of the amplitude of nutation for I = {listed([f'{I:g}' for I in ratios])} over omega 2 and omega 3, "

@@ -71,6 +71,12 @@ def excess(I2: Any, I3: Any) -> Any:
     return over(lambda I2, I3: I3 - I2, I2, I3)
 
 
+def shape_name(ratio: Any) -> str:
+    """Return the name in `SHAPES` of the shape by which a body was given; "" for a number and for given moments."""
+    shape = getattr(ratio, "_shape", None) if isinstance(ratio, SymmetricBody) else None
+    return shape[0] if shape else ""
+
+
 def kept_ratio(ratio: Any, I3: Any) -> Any:
     """Return the ratio that an object stores: the `SymmetricBody` itself, or for a number I3/I2 its copy ``I3``."""
     return ratio if isinstance(ratio, SymmetricBody) else I3

@@ -1,9 +1,10 @@
 """The words of captions: numbers, vectors and bodies as text, with TeX for captions and without it for alt texts."""
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from atlas.bodies.body import moments
+from atlas.bodies.body import moments, shape_name
 
 DIGITS = 6
 MINUS = "\N{MINUS SIGN}"
@@ -57,32 +58,38 @@ def quotient(ratio: Any) -> float:
     return float(I3 / I2)
 
 
-def body_name(ratio: Any) -> str:
-    """Return "loop" for I3 = 2 I2, "ball" for I3 = I2, else "short solenoid" (I3 > I2) or "long solenoid".
+def body_role(ratio: Any) -> str:
+    """Return the role of a body's layers where bodies are compared, by its ratio I, a number or that of a body.
 
-    `ratio` is I = I3/I2 or a body; the comparison is exact.
+    It is "loop_body" for I3 = 2 I2, "ball_body" for I3 = I2, else "short_body" (I3 > I2) or "long_body"; the
+    comparison is exact.
     """
     I2, I3 = moments(ratio)
     if I3 == 2 * I2:
-        return "loop"
+        return "loop_body"
     if I3 == I2:
-        return "ball"
-    return "short solenoid" if I3 > I2 else "long solenoid"
+        return "ball_body"
+    return "short_body" if I3 > I2 else "long_body"
 
 
-def body_role(ratio: Any) -> str:
-    """Return the role of a body's layers where bodies are compared, the first word of its name and "_body".
+def body_name(ratio: Any) -> str:
+    """Return a body's shape in words, such as "spheroid"; "body" for a number I = I3/I2 and for given moments."""
+    return shape_name(ratio).replace("_", " ") or "body"
 
-    So it is "loop_body", "ball_body", "short_body" or "long_body". `ratio` is I = I3/I2 or a body; see `body_name`.
+
+def with_body_name(text: str, name: str) -> str:
+    """Return a caption or alternative text with a body's name, such as "disk", in the place of the word "body".
+
+    Only the words of `tex_setting` and `plain_setting` change: "a body with I = 2" becomes "a disk with I = 2".
     """
-    return f"{body_name(ratio).partition(' ')[0]}_body"
+    return re.sub(r"\bbody(?= with (\$I=|I = ))", name, text)
 
 
 def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> str:
-    """Return TeX such as 'a loop with I = 2 in the field B' = (0, 1, 2)' for a caption, from field = (B2, B3).
+    """Return TeX such as 'a disk with I = 2 in the field B' = (0, 1, 2)' for a caption, from field = (B2, B3).
 
-    `ratio` is I = I3/I2 or a body. Without a field the text is 'a free loop with I = 2'. ``article`` is the first
-    word, 'A' at a sentence's beginning.
+    `ratio` is I = I3/I2 or a body; see `body_name`. Without a field the text is 'a free disk with I = 2'. ``article``
+    is the first word, 'A' at a sentence's beginning.
     """
     body = f"{body_name(ratio)} with $I={tex(quotient(ratio))}$"
     if not any(field):
@@ -91,9 +98,9 @@ def tex_setting(ratio: Any, field: Sequence[float], *, article: str = "a") -> st
 
 
 def plain_setting(ratio: Any, field: Sequence[float]) -> str:
-    """Return "a loop with I = 2 in the field B' = (0, 1, 2)", for an alternative text, from field = (B2, B3).
+    """Return "a disk with I = 2 in the field B' = (0, 1, 2)", for an alternative text, from field = (B2, B3).
 
-    `ratio` is I = I3/I2 or a body. Without a field the text is "a free loop with I = 2".
+    `ratio` is I = I3/I2 or a body. Without a field the text is "a free disk with I = 2".
     """
     body = f"{body_name(ratio)} with I = {plain(quotient(ratio))}"
     return f"a {body} in the field B' = {plain_vector((0.0, *field))}" if any(field) else f"a free {body}"

@@ -12,8 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
 from atlas import AtlasError, ElementaryMotion, GeneralMotion
+from atlas.bodies.body import SHAPES
+from atlas.book.compose import compose
+from atlas.book.load import load
+from atlas.book.pictures import pictures
 from atlas.pictures import Curve, Image, Plane, Points, Scene, recipes
 from atlas.pictures.drawing.panels import to_figure
+from atlas.trial.ledger import EQUATIONS
+from atlas.trial.ledger.citation import marked
 
 DOTS, LEAST, SEEN, WORDS = 100, 30, 25, 60
 """Pixels an inch, how many must differ where a layer is taken away, and by how much of 255; words of a caption."""
@@ -58,6 +64,42 @@ def test_a_recipe_describes_its_picture_in_one_sentence(name: str) -> None:
     assert recipe.row in recipes.ROWS
     assert scene_of(name).caption.startswith(f"{recipe.seen} ")
     assert recipe.seen not in scene_of(name).caption[len(recipe.seen) :]
+
+
+@pytest.mark.parametrize("shape", sorted(SHAPES.keys() - {"thin_rod"}))
+def test_a_caption_names_the_shape_that_was_typed(shape: str, tmp_path: Path) -> None:
+    """A disk is no loop: in Python, and in a report, whose recipes have the ratio alone; of a number it says "body"."""
+    make, sizes = SHAPES[shape]
+    body, words = make(**dict.fromkeys(sizes, 1.0)), shape.replace("_", " ")
+    of_body, of_ratio = (recipes.load("quadric").scene(ratio=x, field=(1.0, 2.0)) for x in (body, body.ratio))
+    assert f"a {words} with $I=" in of_body.caption
+    assert f"a {words} with I = " in of_body.alt
+    assert "a body with $I=" in of_ratio.caption
+    file = tmp_path / "mine.toml"
+    file.write_text(
+        "name = 'mine'\ntitle = 'M'\n[parameters]\nfields.up = { title = 'up', prime = [1.0, 2.0] }\n"
+        f"bodies.mine = {{ title = 'mine', shape = '{shape}', {', '.join(f'{size} = 1.0' for size in sizes)} }}\n"
+        "[[pages]]\nslug = 'index'\ntitle = 'T'\nblocks = [\n"
+        "{ kind = 'figure', recipe = 'quadric', body = 'mine', field = 'up' },\n"
+        "{ kind = 'figure', recipe = 'quadric', body = 'mine', field = 'up', parameters = { ratio = 0.5 } },\n]\n"
+    )
+    report = load(file)
+    drawn = pictures(report)
+    for picture in drawn.values():
+        picture.caption, picture.alt = of_ratio.caption, of_ratio.alt
+    document = compose(report, drawn)
+    by_shape, by_ratio = document.listed("figure")
+    assert document.texts[by_shape.caption].markdown == marked(of_body.caption, EQUATIONS)
+    assert by_shape.alt == of_body.alt
+    assert document.texts[by_ratio.caption].markdown == marked(of_ratio.caption, EQUATIONS)
+
+
+@pytest.mark.parametrize("name", recipes.names())
+def test_a_caption_guesses_no_shape_from_a_ratio(name: str) -> None:
+    """A ratio is that of many shapes: "short solenoid" and "loop" stand only where a figure draws them as examples."""
+    scene = scene_of(name)
+    for text in (scene.caption, scene.alt):
+        assert not re.search(r"(solenoid|loop|ball|disk) with (\$I|I =)", text), text
 
 
 def test_recipes_of_users_may_have_a_sentence_and_a_row(tmp_path: Path) -> None:

@@ -118,13 +118,14 @@ class FigureView:
 def view(block: Figure, composer: Composer) -> FigureView:
     """Return the `FigureView` with the report's next number, and make it the target of citations of its id.
 
-    The caption is the block's, else the scene's, else says that the recipe failed. A width set by the block scales the
-    height in proportion.
+    The caption is the block's, else the scene's, else says that the recipe failed. The scene's words name the shape of
+    the body that the block names. A width set by the block scales the height in proportion.
     """
     composer.figures += 1
     pictures = tuple(composer.document.pictures_of(block))
     picture = pictures[0]
-    caption = block.caption or marked(picture.caption, EQUATIONS) or f"The recipe {picture.called} failed."
+    words, alt = (_with_shape(text, block, composer) for text in (picture.caption, picture.alt))
+    caption = block.caption or marked(words, EQUATIONS) or f"The recipe {picture.called} failed."
     width, height = picture.size
     shown_width = block.width or width
     anchor = composer.anchor("fig", block.id, "Figure", composer.figures)
@@ -134,8 +135,21 @@ def view(block: Figure, composer: Composer) -> FigureView:
         anchor,
         pictures,
         composer.caption(caption, anchor, f"Figure {composer.figures}"),
-        picture.alt or picture.failure,
+        alt or picture.failure,
         shown_width,
         height * shown_width / width,
         composer.text(parameters, inline=True),
     )
+
+
+def _with_shape(text: str, block: Figure, composer: Composer) -> str:
+    """Return a scene's caption or alternative text, which names the shape of the block's body if it was given by one.
+
+    The recipe has the ratio of the body alone, and writes "body". Another ratio of the block has no shape.
+    """
+    shape = composer.parameters.bodies[block.body].shape if block.body else None
+    if shape is None or "ratio" in block.parameters:
+        return text
+    from atlas.pictures.captions import with_body_name
+
+    return with_body_name(text, shape.replace("_", " "))
