@@ -28,18 +28,19 @@ def scene(
     b: float = 1.0,
     momentum: tuple[float, ...] = (1.6, 0.8, 0.2, 0.0),
     reach: float = 2.2,
+    unit: str = "time",
 ) -> Scene:
     """Draw the critical values of H and F of the body for each ``momentum`` along the field, (M, K)/b.
 
     ``inertia`` are the principal moments, ``b`` is |B'| in 1/time; H is the energy in Larmor's frame, F Clebsch's
-    integral. ``reach`` is the width of a panel in units of that of the three spins. Raises DomainError unless there
-    are one to four momenta.
+    integral. ``reach`` is the width of a panel in units of that of the three spins; ``unit`` is the word for the unit
+    of time. Raises DomainError unless there are one to four momenta.
     """
     if not 0 < len(momentum) <= 4:
         raise DomainError(f"figure bifurcation takes one to four values of the momentum, not {momentum}.")
     maps = [Bifurcation(inertia, b, ratio * b) for ratio in momentum]
     panels = tuple(
-        panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach)
+        panel(rf"({letter}) $p={tex(ratio.c / ratio.b)}$", ratio, reach, unit)
         for letter, ratio in zip("abcd", maps, strict=False)
     )
     drawn_roles = {getattr(layer, "role", "") for ratio in panels for layer in ratio.layers}
@@ -71,14 +72,14 @@ def scene(
     )
 
 
-def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
+def panel(name: str, bifurcation: Bifurcation, reach: float, unit: str) -> Plane:
     """Return the `Plane` of one c, with names at its curves; upwards stands H less F over twice the middle moment.
 
     `name` is its title, `bifurcation` has the critical values of H and F at one c = (M, K). ``reach`` is the width
-    of the panel in units of that of the three spins about principal axes. Motions with values H and F exist if the
-    sum of squares of theorem-splitting is nowhere negative on the unbounded oval and somewhere not positive on the
-    bounded one, so that the stretches with s > 0 of that theorem are the border, for c = 0 the parabola and the
-    stable rays.
+    of the panel in units of that of the three spins about principal axes, ``unit`` the word for the unit of time.
+    Motions with values H and F exist if the sum of squares of theorem-splitting is nowhere negative on the unbounded
+    oval and somewhere not positive on the bounded one, so that the stretches with s > 0 of that theorem are the
+    border, for c = 0 the parabola and the stable rays.
     """
     middle = int(np.argsort(bifurcation.inertia)[1])
     slope = 1 / (2 * float(bifurcation.inertia[middle]))
@@ -125,7 +126,8 @@ def panel(name: str, bifurcation: Bifurcation, reach: float) -> Plane:
             Points(place[None], "rest"),
             Label(place, "rest" if bifurcation.c > 0 else r"$-2\mathbf{K}$", "rest", (-4, -6)),
         ]
-    return Plane(tuple(layers), "$F$", rf"$H-F/2I_{middle + 1}$", x_limits, y_limits, title=name)
+    labels = f"$F$ (inertia$^2$/{unit}$^2$)", f"$H-F/2I_{middle + 1}$ (inertia/{unit}$^2$)"
+    return Plane(tuple(layers), *labels, x_limits, y_limits, title=name)
 
 
 def line(

@@ -104,7 +104,7 @@ def plane(z: FloatArray, phases: FloatArray, chosen: FloatArray) -> Plane:
         layers += [Curve(line, role), Label(line[word], name, role, (2, 5))]
     layers.append(Points(np.column_stack([np.full(3, chosen[0]), chosen[1:]]), "start"))
     limits = float(z[0]), float(z[-1])
-    return Plane(tuple(layers), "$z$", r"turns about $\mathbf{B}$", limits, title="(b) in one period")
+    return Plane(tuple(layers), "$z$ (inertia$^2$)", r"turns about $\mathbf{B}$", limits, title="(b) in one period")
 
 
 def sphere(motion: Any, field: Any) -> Space:

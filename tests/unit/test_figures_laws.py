@@ -128,7 +128,8 @@ def test_another_unit_scales_each_axis_and_changes_nothing_else(
 ) -> None:
     """In a unit four times as small every coordinate of an axis is multiplied by one power of two, within 1e-9 of it.
 
-    So each layer stands where it stood on paper: no number of a recipe has a unit that is not said.
+    So each layer stands where it stood on paper: no number of a recipe has a unit that is not said, and the label of
+    an axis that changes has the unit.
     """
     recipe, weights = recipes.load(name), WEIGHTS[unit]
     scene, values_given = scene_of(name, **parameters), {**recipe.parameters, **parameters}
@@ -137,11 +138,14 @@ def test_another_unit_scales_each_axis_and_changes_nothing_else(
         | {k: x for k, x in parameters.items() if k not in weights}
     )
     for panel, after in zip(scene.panels, scene_scaled.panels, strict=True):
-        for axis, axis_scaled in zip(coordinates(panel), coordinates(after), strict=True):
+        labels = (panel.x_label, panel.y_label) if isinstance(panel, Plane) else ("",)
+        for label, axis, axis_scaled in zip(labels, coordinates(panel), coordinates(after), strict=True):
             size, size_scaled = (
                 max(np.nanmax(np.abs(array), initial=0.0) for array in arrays) for arrays in (axis, axis_scaled)
             )
             power = 2.0 ** round(float(np.log2(size_scaled / size))) if size else 1.0
+            assert power == 1.0 or not label or unit in label, label
+
             for k, (x, y) in enumerate(zip(axis, axis_scaled, strict=True)):
                 assert x.shape == y.shape, (k, panel.title)
                 assert np.nanmax(np.abs(y - power * x), initial=0.0) <= 1e-9 * power * size, (k, panel.title)
