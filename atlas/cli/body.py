@@ -39,7 +39,10 @@ ROD_REASON = (
 
 def points_option(axes: str) -> Callable[[F], F]:
     """Return the decorator of the option --points; `axes` is put at the end of its help."""
-    says = f"CSV file of point masses, with the columns x, y, z, mass and, for --magnetic, charge{axes}."
+    says = (
+        "CSV file of point masses, with the columns x, y, z, mass and, for --magnetic, charge; a name may have a unit, "
+        f"as x [um]{axes}."
+    )
     return click.option("--points", type=FILE, metavar="FILE", help=says)
 
 

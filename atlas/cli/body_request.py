@@ -76,7 +76,9 @@ def report_options(out: str) -> Callable[[Any], Any]:
             "--title", callback=one_line, help="Title of the report; by default one that names body and motion."
         ),
         click.option(
-            "--name", metavar="NAME", help="Name of the files; default: your_body and a digest of the inputs."
+            "--name",
+            metavar="NAME",
+            help="First part of the files' names, before a digest of the inputs; default: your_body.",
         ),
         jobs_option,
     )
@@ -151,7 +153,7 @@ def command_of(family: Family) -> click.Command:
             metavar="PART,...",
             default="",
             callback=in_order,
-            help=f"Parts that are made, of {', '.join(PARTS)}; default: all, of atlas page {PAGE}.",
+            help=f"Parts to make, with commas, out of {', '.join(PARTS)}. Default: all; for atlas page {PAGE}.",
         ),
         click.option("--note", default="", hidden=True),
     ]

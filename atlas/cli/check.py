@@ -76,9 +76,11 @@ def three_moments(files: tuple[Path, ...], **options: Any) -> int:
 @numbers("omega2", "Second component of the initial angular velocity of an elementary motion, in 1/time.")
 @numbers("omega3", "Third component, in 1/time; goes with --omega2, only where (71) leaves it free.")
 @numbers("direction", "Direction n of a top's field at t = 0, across and along the axis, as in atlas top.", "N2 N3")
-@numbers("coupling", "Coefficients k of a top, M = I Omega + k b, as in atlas top.", "K2 K3")
-@numbers("linear", "Linear coefficient of a top's potential: m g l of a heavy top.")
-@numbers("quadratic", "Quadratic coefficient of a top's potential.")
+@numbers(
+    "coupling", "Coefficients k of a top, M = I Omega + k b, in inertia/time, as in atlas top; default 0 0.", "K2 K3"
+)
+@numbers("linear", "Linear coefficient of a top's potential, in inertia/time^2: m g l of a heavy top; default 0.")
+@numbers("quadratic", "Quadratic coefficient of a top's potential, in inertia/time^2; default 0.")
 @graded_options
 def command(files: tuple[Path, ...], **options: Any) -> int:
     """Count the correct digits of a trajectory computed elsewhere, column by column.

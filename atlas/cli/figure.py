@@ -69,7 +69,7 @@ def parameters_of(name: str) -> tuple[str, list[tuple[str, str]]]:
     "--for",
     "target",
     metavar="TARGET",
-    help=f"Medium for which size, type and resolution are chosen: {', '.join(TARGETS)}.",
+    help=f"Medium for which size, type and resolution are chosen: {', '.join(TARGETS)}. Default: its own size.",
 )
 @click.option("--gallery", is_flag=True, help="Make a page of small pictures of all figures, or of the named figures.")
 @out_option("build/figures")

@@ -31,7 +31,12 @@ fit_options: Callable[[Any], Any] = stack(
     ),
     multiple_option("fix", "NAME=VALUE [...]", "Known parameters, which stay fixed, such as ratio=1.5."),
     multiple_option("start", "NAME=VALUE [...]", "Start values of parameters, such as B3=1.1; none is needed."),
-    numbers("epoch", "Time t at which the fitted initial velocity and attitude hold.", default="0", show_default=True),
+    numbers(
+        "epoch",
+        "Time at which the fitted initial velocity and attitude hold, as in the column t; in s if that has a unit.",
+        default="0",
+        show_default=True,
+    ),
     choice(
         "loss",
         LOSSES,
@@ -41,7 +46,7 @@ fit_options: Callable[[Any], Any] = stack(
     multiple_option(
         "predict",
         "T [T ...]",
-        "Print predictions of the measured quantity at these times, with standard errors.",
+        "Print predictions of the measured quantity at these times, counted as --epoch, with standard errors.",
         type=REAL,
     ),
     numbers(

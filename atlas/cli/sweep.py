@@ -227,7 +227,7 @@ def of_three_moments() -> click.Command:
     body.field_options,
     body.start_option,
     body.spin_option,
-    numbers("omega2", "Second component of the angular velocity, of an elementary motion."),
+    numbers("omega2", "Second component of the initial angular velocity of an elementary motion, in 1/time."),
 )
 def command(**options: Any) -> None:
     """Sweep over symmetric bodies, with the command's options by name; see `swept`."""

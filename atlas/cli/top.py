@@ -21,11 +21,11 @@ OF_HEAVY, OF_CHARGED = ("mass",), ("charged", "coat", "charge", "moment", "polar
 
 top_options: Callable[[F], F] = stack(
     click.option("--heavy", type=(Real(0), Real(1)), metavar="G L", help="Heavy top: gravity G in m/s^2, "
-                 "and the distance L in m along the axis from the fixed point to the centre of mass; --inertia is "
-                 "about the centre of mass. Needs --mass or --points."),
-    numbers("magnetic", "Charged body in this magnetic field, across and along the axis; n is the direction of "
-            "the field. Needs --charged, --coat or --points. With --heavy, up is along the field, or against it by "
-            "--direction.",
+                 "and the distance L in m along the axis from the fixed point to the centre of mass; --inertia, in "
+                 "kg m^2, is about the centre of mass. Needs --mass or --points."),
+    numbers("magnetic", "Charged body in this magnetic field, such as 0.8T, across and along the axis; n is the "
+            "direction of the field. Needs --charged, --coat or --points. With --heavy, up is along the field, or "
+            "against it by --direction.",
             "B2 B3"),
     numbers("mass", "Mass of the body, such as 50g; goes with --heavy or --shape."),
     click.option("--shape", metavar="NAME", help="Shape of the body instead of --inertia, such as disk; `atlas list "
@@ -33,7 +33,7 @@ top_options: Callable[[F], F] = stack(
     size_options,
     click.option("--points", type=FILE, metavar="FILE", help="CSV file of point "
                  "masses and charges, with the columns x, y, z, mass, charge; the axis is z."),
-    numbers("charged", "Second moments of the charge (charge times length squared) about the transverse axis and about "
+    numbers("charged", "Second moments of the charge, in C m^2 or statC cm^2, about the transverse axis and about "
             "the body's axis, through the centre of mass; with --heavy through the fixed point.", "J2 J3"),
     click.option("--coat", metavar="NAME", help="Shape over which the charge is spread, with the dimensions of the "
                  "body; needs --charge."),
@@ -41,8 +41,8 @@ top_options: Callable[[F], F] = stack(
     numbers("moment", "Magnetic moment along the axis, in A m^2 or erg/G; goes with --magnetic."),
     numbers("polarizability", "Induced magnetic moment per unit field across and along the axis, in A m^2/T or erg/G^2;"
             " goes with --magnetic.", "A2 A3"),
-    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Units of --magnetic and its "
-                 "options: si (kg, m, C, T), the default, or gaussian (g, cm, statC, G)."),
+    click.option("--units", type=click.Choice(["si", "gaussian"]), help="Units of --magnetic, its "
+                 "options and --inertia: si (kg, m, C, T), the default, or gaussian (g, cm, statC, G)."),
 )  # fmt: skip
 
 

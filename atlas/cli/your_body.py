@@ -76,6 +76,16 @@ def places_of(built: "Built") -> list[Path]:
     return [built.index, built.pdf, *(built.pdf.with_name(built.name + end) for end in (".card.json", ENDING))]
 
 
+FILES = (
+    ("--from FILE|NAME", "Options of a report, from NAME.inputs.toml, or of a body of the gallery, such as toutatis."),
+
+    ("--each FILE.csv", "A report for each row of a table of options."),
+    ("--against FILE|NAME", "The cards of two bodies side by side, this one and that of a file as for --from."),
+    ("--explain", "Say for each figure why it was drawn or taken from the cache, and which of its inputs changed."),
+)  # fmt: skip
+"""Options that are read before those of a body, with their help."""
+
+
 class YourBody(ByOptions):
     """The group of the report your_body, named "atlas report your_body" in messages."""
 
@@ -94,6 +104,15 @@ class YourBody(ByOptions):
         `formatter` is click's.
         """
         formatter.write_usage(f"atlas report {NAME}", "[motion|top|classify] OPTIONS")
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options of a report for the help, and before them those that take a file, and --explain.
+
+        `formatter` is click's.
+        """
+        with formatter.section("Files and tables"):
+            formatter.write_dl([*FILES])
+        super().format_options(ctx, formatter)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the words and return the remaining ones. Raises click.UsageError where no option is among them."""
@@ -202,15 +221,13 @@ def command() -> None:
     card of six numbers, also as NAME.card.json, an explorer with sliders, the body, its motion, all its motions, the
     errors of a measurement, and the neglected effects with the reason. NAME is your_body with eight characters, a
     digest of the inputs. NAME.inputs.toml holds the inputs as typed and as evaluated; --from NAME.inputs.toml builds
-    the same bytes, --from toutatis a body of the gallery. NAME.bib cites the paper and this version.
-    --explain says for each figure why it was drawn or taken from the cache, and which of its inputs changed.
+    the same bytes. NAME.bib cites the paper and this version.
 
-    --each FILE.csv builds a report for each row of a table. Its columns are options, as radius [um] or charge [e]; a
-    cell of several numbers has spaces between them, an empty cell leaves its option out, and options beside --each hold
-    for all rows. index.html lists the cards and sorts by each of their numbers; index.csv has the same numbers. Rows
-    that fail are listed with the reason, the others are built, and then the exit status is 1.
+    The columns of a table --each are options, as radius [um] or charge [e]; a cell of several numbers has spaces
+    between them, an empty cell leaves its option out, and options beside --each hold for all rows. index.html lists the
+    cards and sorts by each of their numbers; index.csv has the same numbers. Rows that fail are listed with the reason,
+    the others are built, and then the exit status is 1. With --against nothing is drawn.
 
-    --against FILE.inputs.toml puts the cards of two bodies side by side, with their differences; nothing is drawn.
     """
 
 

@@ -99,7 +99,7 @@ def test_a_caption_guesses_no_shape_from_a_ratio(name: str) -> None:
     """A ratio is that of many shapes: "short solenoid" and "loop" stand only where a figure draws them as examples."""
     scene = scene_of(name)
     for text in (scene.caption, scene.alt):
-        assert not re.search(r"(solenoid|loop|ball|disk) with (\$I|I =)", text), text
+        assert not re.search(r"(solenoid|loop|disk) with (\$I|I =)", text), text
 
 
 def test_recipes_of_users_may_have_a_sentence_and_a_row(tmp_path: Path) -> None:

@@ -19,9 +19,9 @@ FAMILY = Family(
     "motions.particle.{}.ParticleMotion",
     (
         Parameter("mu", "Charge-to-mass ratio; either sign.", "charge/mass", (1.0,), (-3.0, 3.0)),
-        _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E; default 0 0 0."),
-        _vector("magnetic", "B", "magnetic field", (0.0, 0.0, 1.0), "Magnetic field B; default 0 0 0."),
-        _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0; default 0 0 0."),
+        _vector("electric", "E", "electric field", (0.2, 0.5, 0.0), "Electric field E, such as 100V/m; default 0 0 0."),
+        _vector("magnetic", "B", "magnetic field", (0.0, 0.0, 1.0), "Magnetic field B, such as 0.8T; default 0 0 0."),
+        _vector("position", "y", "length", (0.0, 0.0, 0.0), "Position at t = 0, such as 2mm; default 0 0 0."),
         _vector("velocity", "v", SPEED, (1.0, 0.0, 0.0), "Velocity at t = 0; default 0 0 0."),
         Parameter(
             "c",
