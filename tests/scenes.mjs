@@ -181,6 +181,15 @@ for (const name of readdirSync(folder).filter((one) => one.endsWith(".html"))) {
       holds(y >= 0 && y + height <= 0.45 * 844, name, `keeps ${place} above the step ${address}`);
     }
   }
+  if (await page.locator(".film").count()) {
+    await page.setViewportSize({ width: 1280, height: 1700 });
+    await page.reload();
+    await page.waitForTimeout(500);
+    const address = await page.locator(".film .steps a").first().getAttribute("href");
+    const wanted = new URLSearchParams(address.replace("#motion:", "")).get("omega3");
+    const chosen = await page.locator(".film input[type=range][name=omega3]").inputValue();
+    holds(Number(chosen) === Number(wanted), name, "opens a tall window with the first step");
+  }
   await page.setViewportSize({ width: 1280, height: 1000 });
   await page.reload();
   const slider = page.locator(".explorer input[type=range]").first();

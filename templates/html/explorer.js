@@ -827,6 +827,8 @@
     // The step that comes to the middle of what the scene leaves free is shown.
     const scroll = () => {
       const steps = [...section.querySelectorAll(".steps > li")];
+      const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+      const line = Math.round(65 * Math.min(1, (50 * rem) / innerHeight)); // in % of a window of at most 50rem
       let now = location.hash.startsWith(mark) ? steps[0] : null; // an address stands till one scrolls
       const watch = new IntersectionObserver((entries) => {
         const step = entries.find((one) => one.isIntersecting)?.target;
@@ -834,7 +836,7 @@
         now = step;
         spaces[0] = step.dataset.panel;
         slide(step.querySelector("a"));
-      }, { rootMargin: "-65% 0px -34% 0px" });
+      }, { rootMargin: `${-line}% 0px ${line - 99}% 0px` });
       steps.forEach((step) => watch.observe(step));
     };
     const share = 1 / spaces.length,
