@@ -99,12 +99,21 @@ def inertia_tensor(inertia: Any) -> FloatArray:
     2 g1 = I2 + I3 - I1 is a sum of 2 m x^2. A plane body has equality, up to rounding: NearestInputWarning where a
     tensor is beyond by more than that of doubles, but not by more than that of single precision.
     """
+    return checked_tensor(inertia)[0]
+
+
+def checked_tensor(inertia: Any) -> tuple[FloatArray, list[fmpq], list[list[fmpq]]]:
+    """Return (inertia tensor (3, 3), its principal values, its axes as rows) of a body, checked by `inertia_tensor`.
+
+    Values and axes are rationals, as `principal_values` returns them.
+    """
     tensor, _ = diagonal_or_matrices(inertia, "The inertia tensor")
     if tensor.ndim > 2:
         raise AtlasError(f"A body has one inertia tensor (3, 3) or diagonal (3,), not the shape {tensor.shape}.")
     tensor = np.diag(tensor) if tensor.ndim == 1 else tensor
     oblique = bool((tensor * (1 - np.eye(3))).any())
-    I = np.sort(principal(tensor)[0])
+    values, axes = principal_values(rational_matrix(tensor))
+    I = np.sort([*map(nearest, values)])
     if I[0] <= ROUNDING * oblique * I[2]:
         least = f": {I[2] - I[1]:.15g} is the least that any body has" if I[0] >= 0 and I[2] > I[1] > 0 else ""
         remedy = f"{least or ': give a thin body a radius'}" if I[0] == 0 else ""
@@ -118,7 +127,7 @@ def inertia_tensor(inertia: Any) -> FloatArray:
         )
     if beyond > ROUNDING * I[2]:
         tell_nearest(f"No body has this inertia tensor, by its last digits: {excess}", "a plane body")
-    return tensor
+    return tensor, values, axes
 
 
 def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:

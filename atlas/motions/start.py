@@ -18,7 +18,7 @@ from atlas.arithmetic.lazy import cached_property
 from atlas.arithmetic.numbers import Number, as_rational, dot, length, nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.body import SymmetricBody, exact_moments, moments
-from atlas.bodies.inertia import inertia_tensor, principal_values, rational_matrix, rounded
+from atlas.bodies.inertia import checked_tensor, inertia_tensor, rounded
 from atlas.errors import AtlasError, DomainError, NearlySymmetricWarning, tell_nearest
 from atlas.motions.frames import Placement, turned_by
 
@@ -258,7 +258,7 @@ def _principal(tensor: FloatArray) -> tuple[list[fmpq], list[list[fmpq]]]:
 
     Moments ascend, except that two equal ones come first. Warns NearlySymmetricWarning for two nearly equal moments.
     """
-    I, axes = principal_values(rational_matrix(inertia_tensor(tensor)))
+    _, I, axes = checked_tensor(tensor)
     largest = max(range(3), key=I.__getitem__)
     # the rounding of a tensor's elements may put a plane body beyond all bodies
     I[largest] = min(I[largest], I[largest - 1] + I[largest - 2])
