@@ -67,8 +67,7 @@ class Phases:
     """Phases of one or two frequencies, with the tables that evaluate them at times t.
 
     Made from `turns`, the frequencies, exact, in turns per unit of time, and `origins`, if given, phases at t = 0,
-    in turns. `words` (2, n, 1) are -P0 and P1, where P0 + P1 is the frequency in half turns to 2^-107 of itself;
-    `halves` (2, 1, n, 1) are the upper and lower 26 digits of P0. `rounder` (n, 1) rounds to the half turns that
+    in turns. P0 + P1 is the frequency in half turns to 2^-107 of itself. `rounder` (n, 1) rounds to the half turns that
     are left out: EVEN ones for whole turns. `longest` is the largest |t|.
 
         >>> t, cos, sin = np.array([1e15]), np.empty((1, 1)), np.empty((1, 1))
@@ -89,17 +88,37 @@ class Phases:
         if any(exponents):
             small = [scaled(p, -x) for p, x in zip(halves, exponents, strict=True)]
             self.exponents = np.array(exponents)[:, None]
-        self._keep(_columns([words(p, 2) for p in small]))
         self.rounder = rounder
         with workprec():
             fastest = max(abs(p * QUARTER) for p in halves)
             self._within(_reach(fastest))
             self.max_near_time = nearest(MAX_NEAR_PHASE / fastest) if fastest != 0 else inf
-            self.origins = None if origins is None else _columns([_cut(turn) for turn in origins])
-        if self.origins is not None:
-            first_origin, low = self.origins
-            self.starts = -first_origin * MINUS_HEAD, low * QUARTER_TURN - first_origin * MINUS_TAIL
         self._small, self._starts = small, origins
+
+    @cached_property
+    def words(self) -> FloatArray:
+        """The words -P0 and P1 of n frequencies, shape (2, n, 1)."""
+        P0, P1 = _columns([words(p, 2) for p in self._small])
+        return np.array([-P0, P1])
+
+    @cached_property
+    def halves(self) -> FloatArray:
+        """Upper and lower 26 digits of P0 of n frequencies, shape (2, 1, n, 1)."""
+        P0 = -self.words[0]
+        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
+        return np.array([head, P0 - head])[:, None]
+
+    @cached_property
+    def origins(self) -> FloatArray | None:
+        """Phases at t = 0 in half turns, a multiple of 2^-25 and the remainder, (2, n, 1); None if all are zero."""
+        with workprec():
+            return None if self._starts is None else _columns([_cut(turn) for turn in self._starts])
+
+    @cached_property
+    def starts(self) -> tuple[FloatArray, FloatArray]:
+        """Half of `origins` in rad, (n, 1) each: the multiple of 2^-25 times the head of pi/2, and the rest."""
+        multiple, low = _columns([(0.0, 0.0)]) if self.origins is None else self.origins
+        return -multiple * MINUS_HEAD, low * QUARTER_TURN - multiple * MINUS_TAIL
 
     @cached_property
     def _turns_of_integers(self) -> list[tuple[int, int, int]]:
@@ -199,19 +218,12 @@ class Phases:
         Times have no limit.
         """
         self = cls.__new__(cls)
-        self._keep(words)
+        self.words = np.array([-words[0], words[1]])
         is_still = words[0] == 0
         self.exponents = np.where(is_still, ZERO_EXPONENT, 0) if is_still.any() else None
         self.origins, self.rounder, self.max_near_time = None, ROUNDER, -1.0
         self._within(inf)
         return self
-
-    def _keep(self, words: FloatArray) -> None:
-        """Set `words` (-P0, P1) and `halves`, the upper and lower 26 digits of P0, from words (P0, P1) (2, n, m)."""
-        P0, P1 = words
-        head = P0 * SPLITTER - (P0 * SPLITTER - P0)
-        self.words = np.array([-P0, P1])
-        self.halves = np.array([head, P0 - head])[:, None]
 
     def _within(self, reach: float) -> None:
         """Set `reach`, and `longest`, the smaller of it and the largest double."""

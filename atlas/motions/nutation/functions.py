@@ -143,14 +143,15 @@ class Hyperbolic:
         self.line = Line(slope, start)
         self.distant = words(self.reach, 2) if self.periodic and self.reach > MAX_EXPONENT else None
         self.sech = any(sum_.doubled for sum_ in sums)
-        polynomials = [self._polynomials(sum_) for sum_ in sums]
-        self.powers = max(self._count_terms(weights) for weights in polynomials)
+        self._known = [(sum_, self._polynomials(sum_)) for sum_ in sums]
+        self.powers = max(self._count_terms(weights) for _, weights in self._known)
         self.count = 2 * self.powers * (1 + self.sech)
 
     def weights(self, sum_: Sum) -> list[acb]:
         """Return the weights of the functions in ``sum_``, a list of `count` complex balls."""
         none = [acb(0)] * (2 * self.powers)
-        polynomial = (self._polynomials(sum_) + none)[: 2 * self.powers]
+        polynomial = next((weights for known, weights in self._known if known is sum_), None)
+        polynomial = ((polynomial or self._polynomials(sum_)) + none)[: 2 * self.powers]
         if not self.sech:
             return polynomial
         if sum_.doubled and self.distant:
