@@ -35,7 +35,6 @@ from atlas.motions.register import FAMILIES
 from atlas.notebook.pictures import scene_of, single_panel
 from atlas.notebook.show import picture
 from atlas.pictures import Curve, Plane, Scene, recipes
-from atlas.pictures.drawing.window import mimebundle
 
 TOP = {"inertia": (1.0, 0.5), "coupling": (0.0, 0.0), "direction": (0.6, 0.8), "omega": (0.1, 0.2, 5.0), "linear": 3.0}
 ONE: list[Any] = [
@@ -199,6 +198,8 @@ def test_a_figure_is_shown_at_half_its_pixels() -> None:
 @pytest.mark.slow
 def test_a_plotter_shows_a_viewer_without_requests() -> None:
     """The frame is sandboxed, its policy lets nothing in, and it has still, scene and script in it."""
+    from atlas.pictures.drawing.window import mimebundle  # it loads PyVista
+
     scene = recipes.load("quadric").scene()
     bundle = mimebundle(scene)
     assert scene.alt in bundle["text/plain"]
