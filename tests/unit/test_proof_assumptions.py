@@ -19,7 +19,7 @@ ANY = (r"\text{const}", r"\omega_0 = 0", "I_1 = I_2 = I_3")
 OPPOSITE = {"<": ">", ">": "<", r"\le": r"\ge", r"\ge": r"\le", r"\ne": "=", "differs from": "is", "differ from": "is"}
 DOMAIN = re.compile(r"<|>|\\(?:le|ge|ne)\b|differs? from")
 TRUE_OUTSIDE = {
-    *(("text-ball-parallel", clause) for clause in (r"$m_3>-\alpha I_0$ (the paper does not except the rest)",)),
+    *(("text-ball-parallel", clause) for clause in (r"$m_3>-\alpha I_0$ (the paper does not state this condition)",)),
     *((name, f"$B'_{n} > 0$") for name in ("text-beta", "theorem-stability", "theorem-stable-short") for n in (2, 3)),
     *((name, r"$\omega_2$ differs from 0") for name in ("(65)", "(78)", "(80)")),
     *((name, "$I$ differs from 1") for name in ("text-momentum-moves", "theorem-closed")),
