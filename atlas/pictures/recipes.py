@@ -78,7 +78,7 @@ class Recipe:
             scene = make(**used)
         except AtlasError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise _broken(self.source, error) from error
         if not isinstance(scene, Scene):
             raise AtlasError(f"{_short(self.source)}: scene() must return a Scene, not {type(scene).__name__}")
@@ -95,7 +95,7 @@ class Recipe:
         """
         try:
             return _function(self.source)[1]
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise _broken(self.source, error) from error
 
 
@@ -232,7 +232,7 @@ def _run(source: Path, _stamp: tuple[int, int]) -> tuple[Callable[..., "Scene"],
     return make, get_type_hints(make)
 
 
-def _broken(source: Path, error: Exception) -> AtlasError:
+def _broken(source: Path, error: BaseException) -> AtlasError:
     """Return, without raising it, an AtlasError that says in one sentence why a recipe failed, and in which line."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(source)]
     if isinstance(error, SyntaxError):

@@ -374,7 +374,7 @@ def scene(*, wrong: str = ""):
 '''
 
 
-@pytest.mark.parametrize(("misdeed", "complaint"), [("exit", "exit status 3"), ("", "")])
+@pytest.mark.parametrize(("misdeed", "complaint"), [("exit", "SystemExit: 3"), ("", "")])
 def test_a_recipe_that_misbehaves_fails_alone(
     checkout: Path, capfd: pytest.CaptureFixture[str], misdeed: str, complaint: str
 ) -> None:

@@ -185,6 +185,7 @@ def test_a_recipe_without_scene_or_title_is_refused(folder: Path) -> None:
             r"figures/broken\.py: the Scene has no alt and no panels",
         ),
         (b"\xff\xfe", r"figures/broken\.py, line 1: SyntaxError"),
+        (b'"""Broken."""\ndef scene(): raise SystemExit(7)\n', r"figures/broken\.py, line 2: SystemExit: 7"),
     ],
 )
 def test_a_broken_recipe_is_reported_with_its_line(folder: Path, text: bytes, tells: str) -> None:

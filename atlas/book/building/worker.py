@@ -53,8 +53,6 @@ def draw(task: Task) -> str:
         raise
     except AtlasError as error:
         return " ".join(str(error).split())
-    except SystemExit as error:
-        return f"its recipe ended with exit status {error}"
     except Exception as error:  # noqa: BLE001  one figure's failure must not stop the others; it is reported
         return f"{type(error).__name__}: {error}"
     return ""
