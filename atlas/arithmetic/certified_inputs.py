@@ -28,7 +28,7 @@ def rational(value: Any, name: str) -> fmpq:
         return fmpq(*value.as_integer_ratio())
     value = value.item() if hasattr(value, "dtype") and not value.ndim else value  # of NumPy, without axes
     if isinstance(value, bool | bytes):
-        raise AtlasError(f"{name} must be a real number, not {value}.")
+        raise AtlasError(f"{name} must be a real number, not {value!r}.")
     if isinstance(value, arb) and value.is_finite() and not value.is_exact():
         raise AtlasError(f"{name} must be one number, not the ball {value}: give an exact one, such as its midpoint.")
     try:

@@ -59,9 +59,7 @@ def clebsch(*numbers: Number) -> tuple[Number, ...]:
     return dot(M, W) + dot(K, applied(J, K)), F, dot(M, K), dot(K, K), dot(Omega, applied(J, Omega))
 
 
-def cubic(
-    I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
-) -> tuple[Number, ...]:
+def cubic(I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: Vector = ()) -> tuple[Number, ...]:
     """Return (a0, a1, a2, a3) of (47), by (48) with its slip set right, from I = I3/I2, E', K^2, c3 and c5.
 
     The constants are those of `integrals`, and so are the ``factors``.
@@ -73,14 +71,12 @@ def cubic(
     return (further * c5 + E) * c3, a1, 6 * less * c3, -2 * less
 
 
-def quartic(
-    I: Number, E: Number, K2: Number, c3: Number, c5: Number, factors: tuple[Number, Number] | None = None
-) -> tuple[Number, ...]:
+def quartic(I: Number, E: Number, K2: Number, c3: Number, c5: Number) -> tuple[Number, ...]:
     """Return (q0, ..., q4) of the quartic Q(u) = (dOmega3/dt)^2 at Omega3 = u, the constant first.
 
-    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2; the arguments are those of `cubic`.
+    Q(u) = (E' - I u^2)(K^2 - (c3 - u)^2) - (u^2 - (2-I) c3 u + c5)^2; the constants are those of `integrals`.
     Q' is twice the cubic of (47): so q4 = a3/2 = I - 1. Not in the paper: it follows from (36), (37), (40), (41) and
     (38), as (Omega1 K2 - Omega2 K1)^2 + (Omega1 K1 + Omega2 K2)^2 = (Omega1^2 + Omega2^2)(K1^2 + K2^2).
     """
-    a0, a1, a2, a3 = cubic(I, E, K2, c3, c5, factors)
+    a0, a1, a2, a3 = cubic(I, E, K2, c3, c5)
     return E * (K2 - c3 * c3) - c5 * c5, 2 * a0, a1, 2 * a2 / 3, a3 / 2

@@ -43,8 +43,9 @@ class PseudoOscillator:
         a_n is in 1/time^(3 - n). Raises DomainError if one is too large for a float.
         """
         I, *factors = shape_factors(self.ratio)
+        E, K2, c3, c5 = vars(self.integrals).values()
         with np.errstate(over="ignore", invalid="ignore"):
-            values = cubic(I, *vars(self.integrals).values(), factors)
+            values = cubic(I, E, K2, c3, c5, factors)
         return finite(values, "A coefficient of the cubic (47)")
 
     def acceleration(self, u: Any) -> Any:
