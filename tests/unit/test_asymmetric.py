@@ -539,6 +539,14 @@ def test_balls_and_jacobis_functions_agree_at_any_time(inertia: Any, field: Any,
         assert np.abs(values - true).max() < 3.6e-15 * max(1.0, single.accuracy / 3.6e-15) * max(single.size, 1.0), name
 
 
+def test_the_error_of_a_slow_elliptic_motion_counts_the_whole_field() -> None:
+    """K turns as one vector, so its errors are 3.6e-15 |B'|, also where no component of K or Omega is that large."""
+    motion = kernels.SingleAsymmetric(Balls((4, 6, 7), (1, 1, 1), (fmpq(1, 5), fmpq(1, 9), fmpq(1, 14))))
+    assert motion.exact.kind == "elliptic motion"
+    assert motion.accuracy * motion.size >= 3.6e-15 * np.sqrt(3.0)
+    assert f"rounding adds {motion.accuracy:.1e} at most" in motion.agreement
+
+
 def test_an_elliptic_motion_by_its_state_is_made_of_jacobis_functions() -> None:
     """It is `EllipticMotion` of its place on the curve, and says so."""
     inertia, field, z = (1, 2, 3), (fmpq(1), fmpq(-2), fmpq(1, 2)), -4

@@ -22,6 +22,9 @@ class SingleElliptic(SingleMotion):
 
     exact: EllipticMotion
 
+    is_field_turning = True
+    """Whether K has the rounding errors of the vector that turns like K; the K of a free body is constant."""
+
     @cached_property
     def sides(self) -> tuple[FloatArray, FloatArray]:
         """Matrices (left, right), (3, 3) each: R = left R(alpha, beta) right, with axes in the order of the moments."""
@@ -37,12 +40,14 @@ class SingleElliptic(SingleMotion):
         rates = enclosed(lambda: [arb(E - self.exact.frame) for E in self.exact.E], BITS)
         return np.array([float(x.mid()) for x in rates])
 
-    def accuracy(self, size: float) -> float:
+    def accuracy(self, size: float, *, has_omega: bool = True) -> float:
         """Return the bound, at any time, on errors of entries of R, and of K and Omega over ``size``, in rad/time.
 
-        ``size`` is a rate of the motion, such as its largest component of field and angular velocity.
+        ``size`` is a rate of the motion, such as its largest component of field and angular velocity. Omega is left out
+        unless ``has_omega``.
         """
-        return float(MAX_ERROR * max(1.0, abs(self._rates).max() * rounded(lambda: self.exact.b) / size))
+        factors = [float(self.is_field_turning), *abs(self._rates) * has_omega]
+        return float(MAX_ERROR * max(1.0, max(factors) * rounded(lambda: self.exact.b) / size))
 
     def angular_velocity(self, t: Any, out: FloatArray | None = None) -> FloatArray:
         """Return Omega(t) along the body's axes, shape t.shape + (3,), in rad/time.
@@ -68,6 +73,8 @@ class SingleEulerTop(SingleElliptic):
 
     ``exact`` is the free motion; ``field`` (3,) is K, which is constant in the body.
     """
+
+    is_field_turning = False
 
     def __init__(self, exact: EulerTop, field: FloatArray) -> None:
         super().__init__(exact)

@@ -19,7 +19,7 @@ from atlas.errors import AtlasError, DomainError, NotCertifiedError
 from atlas.motions.base import Motion
 from atlas.motions.nutation.certified_elliptic import EllipticMotion, EulerTop
 from atlas.motions.nutation.kernel import scalar
-from atlas.motions.nutation.single_elliptic import MAX_ERROR, SingleElliptic, SingleEulerTop
+from atlas.motions.nutation.single_elliptic import SingleElliptic, SingleEulerTop
 from atlas.motions.spectrum import Wheels
 from atlas.motions.start import Start
 from atlas.motions.torus.certified import AsymmetricMotion as Balls
@@ -130,9 +130,9 @@ class SingleAsymmetric:
             single.pair  # noqa: B018  raises DomainError outside the range of floats
         except DomainError:  # next to the line about which its axis turns
             return None, "certified at each time: Jacobi's functions are too small for a float."
-        error = single.accuracy(self.size)
-        balls = "" if error <= MAX_ROUNDING else ", and Omega, of so slender a body, is certified at each time"
-        adds = MAX_ERROR if balls else error
+        is_slender = not single.accuracy(self.size) <= MAX_ROUNDING
+        balls = ", and Omega, of so slender a body, is certified at each time" if is_slender else ""
+        adds = single.accuracy(self.size, has_omega=not is_slender)
         return single, f"proved for this motion, at all times; rounding adds {adds:.1e} at most{balls}"
 
     def _difference(self, closed: ThetaKernel, t: float) -> float:
@@ -176,7 +176,7 @@ class SingleAsymmetric:
         Without a closed form it is 2^-52.
         """
         if isinstance(self.closed, SingleElliptic):
-            return MAX_ERROR if self._slender else self.closed.accuracy(self.size)
+            return self.closed.accuracy(self.size, has_omega=not self._slender)
         return self.closed.accuracy if self.closed else 2.0**-52
 
     @property
