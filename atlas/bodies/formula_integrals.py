@@ -10,9 +10,7 @@ NAMES = ("E'", "K^2", "c3", "c5", "(m,B')")
 """Names of the conserved quantities of an elementary motion, in order."""
 
 
-def integrals(
-    I: Number, Omega: Vector, K: Vector, factors: tuple[Number, Number] | None = None
-) -> tuple[Number, Number, Number, Number]:
+def integrals(I: Number, Omega: Vector, K: Vector, factors: Vector = ()) -> tuple[Number, Number, Number, Number]:
     """Return E', (36), K^2, (37), c3, (40), and c5, (41), of a state Omega, K in the body, in 1/time.
 
     E', K^2 and c5 are in 1/time^2, c3 is in 1/time. ``I`` is I3/I2; ``factors`` are 1 - I and 2 - I where they have
