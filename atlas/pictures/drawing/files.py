@@ -22,10 +22,12 @@ _UNDERSCORE = r"\catcode`\_=\active\def_{\ifmmode\sb\else\_\fi}"
 FORMATS = ("svg", "pdf", "png", "pgf")
 
 _FORMULAS: dict[Any, Any] = {}
+_PIECES = re.compile(r"([MLQCz])([^MLQCz]*)")
+"""Pieces of a path: a letter and its numbers."""
 _NOT_FOR_PDF = ("GPOS", "GSUB", "GDEF", "MATH", "kern", "cmap", "post", "name", "OS/2", "gasp")
 """Tables of a font that choose, name or place glyphs, which a PDF does itself, see section 9.9 of ISO 32000-1.
 
-Reading them takes a sixth of the time of a figure.
+Reading them takes a third of the time of the fonts.
 """
 
 
@@ -121,16 +123,21 @@ def _short(svg: str) -> str:
     """
 
     def path(matched: re.Match[str]) -> str:
-        place = begun = (0, 0)
+        x = y = first_x = first_y = 0
         letter_before, steps = "", list[str]()
-        for letter, numbers in re.findall(r"([MLQCz])([^MLQCz]*)", matched[1]):
+        for letter, numbers in _PIECES.findall(matched[1]):
             to = [round(100 * float(number)) for number in numbers.split()]
-            if letter == "L" and tuple(to) == place:
-                continue
-            step = "".join(_hundredths(n - place[k % 2]) for k, n in enumerate(to))
+            if len(to) == 2:  # most pieces: a loop takes twice as long
+                if letter == "L" and to[0] == x and to[1] == y:
+                    continue
+                step = _hundredths(to[0] - x) + _hundredths(to[1] - y)
+            else:
+                step = "".join([_hundredths(end - start) for end, start in zip(to, 3 * (x, y), strict=False)])
             steps.append(step if letter == letter_before else letter.lower() + step.lstrip())
-            place = (to[-2], to[-1]) if to else begun
-            begun, letter_before = (place, "L") if letter == "M" else (begun, letter)
+            x, y = to[-2:] or (first_x, first_y)
+            letter_before = letter
+            if letter == "M":
+                first_x, first_y, letter_before = x, y, "L"
         return f' d="{"".join(steps)}"'
 
     return re.sub(r' d="([^"]+)"', path, svg)
