@@ -85,7 +85,7 @@ def compare(
             elif relation.sign in {"=", "!="}:
                 (satisfied if _vanish(relation, bindings) == (relation.sign == "=") else broken).append(relation.text)
             else:
-                domains.setdefault(number, []).extend(_sides(relation, models[number]))
+                domains.setdefault(number, []).extend(_differences(relation, models[number]))
     for text, distance in _nearest(domains, models).items():
         (satisfied if distance < NEAR else broken).append(text)
     satisfied, broken, unread = (list(dict.fromkeys(texts)) for texts in (satisfied, broken, unread))
@@ -95,7 +95,7 @@ def compare(
 def _nearest(domains: Mapping[int, list[tuple[str, Any, Any]]], models: Sequence[Model]) -> dict[str, float]:
     """Return by text of a relation the smallest distance, see `_distances`, of any model's points from its limit.
 
-    ``domains`` maps the index of a model to its triples of `_sides`. Inf where no point obeys the relations.
+    ``domains`` maps the index of a model to its triples of `_differences`. Inf where no point obeys the relations.
     """
     nearest: dict[str, float] = {}
     for number, rows in domains.items():
@@ -154,7 +154,7 @@ def _vanish(relation: Relation, bindings: dict[Any, Any]) -> bool:
     return all(vanishes(sympy.sympify(a) - sympy.sympify(b), bindings) for a, b in pairs)
 
 
-def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
+def _differences(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
     """Yield (text, difference, scale) for each component of an inequality: the difference is positive where it holds.
 
     The scale is 1 + |left| + |right|. Both are SymPy expressions in the model's free parameters.
@@ -167,7 +167,8 @@ def _sides(relation: Relation, model: Model) -> Iterator[tuple[str, Any, Any]]:
 def _distances(rows: list[tuple[str, Any, Any]], model: Model) -> Iterator[tuple[str, float]]:
     """Yield (text, distance) for each row: the smallest difference/scale among `POINTS` random points, dimensionless.
 
-    ``rows`` are triples of `_sides`. Only points that obey all of them count; the distance is inf if there is none.
+    ``rows`` are triples (text, difference, scale) of `_differences`. Only points at which no difference is negative
+    count; the distance is inf if there is none.
     """
     symbols = sorted(set().union(*(x.free_symbols for _, *terms in rows for x in terms)), key=str)
     chance, columns = np.random.default_rng(1), []

@@ -167,8 +167,9 @@ class Line:
     def loops(self, relation: Relation) -> list[tuple[str, tuple[int, ...]]]:
         """Return pairs (index, its integers), one for each free index of a relation that the script runs through.
 
-        The list is empty where the relation's components are written out. An index of particles is left out where
-        the relation has fewer components than its loops would give.
+        The names are sorted; the integers are 1, 2, 3, or those of the model's `ranges`. The list is empty where the
+        relation's components are written out. An index of particles is left out where the relation has fewer
+        components than its loops would give.
         """
         tree = parse(relation.text)[0]
         ranges = self.reader.ranges

@@ -89,9 +89,10 @@ def lost_lines_model() -> list[Model]:
 
 
 def _angles() -> list[tuple[Value, Value]]:
-    """Return the bindings of B3, cos(delta), sin(delta), delta: pairs (symbol, value) with p = tan(delta/2).
+    """Return the bindings, pairs (symbol, value), of B3, cd = cos(delta), sd = sin(delta) and delta, in this order.
 
-    delta = beta/2 + pi/4; B3 follows from tan(beta) = B3/(I B2).
+    The value of B3, from tan(beta) = B3/(I B2) with delta = beta/2 + pi/4, is in cd and sd, the others in
+    p = tan(delta/2).
     """
     return [
         (B3, -I * B2 * (cd**2 - sd**2) / (2 * cd * sd)),
@@ -124,7 +125,7 @@ def coordinates_model() -> Model:
 def _axes() -> tuple[Value, Value]:
     """Return the unit eigenvectors (cos, sin) and (-sin, cos), (2, 1) each, of the form (51) in the plane omega1 = 0.
 
-    Their components are those along omega2 and omega3. The angle is delta of `_angles`. Raises ArithmeticError if
+    Their components, along omega2 and omega3, are in the symbols cd and sd of `_angles`. Raises ArithmeticError if
     one is no eigenvector. Cached.
     """
     cotangent = I * B2 / B3

@@ -398,9 +398,10 @@ class _Formula:
         return of_letters and not (self.is_letter() or str(head).isdigit() or head == "/")
 
     def summed(self) -> list[str]:
-        """Step past a sign of sum or product and its lower index; return the index names, [] without an index.
+        r"""Step past a sign of sum or product and its lower index; return the index names, [] without an index.
 
-        The names are added to `sums` too.
+        Each is one letter or number, two in \sum_{ij}; the names are added to `sums` too. A limit or a comma in the
+        index raises UnreadableError.
         """
         self.take()
         if self.peek() != "_":

@@ -81,7 +81,7 @@ class Verdict:
 
 
 def slips(verdicts: Iterable[Verdict]) -> dict[Grade, list[str]]:
-    """Return the names of entries with a slip of their own, as lists by grade, in the order of `GRADES`.
+    """Return the names of entries with a slip of their own, as lists by the slip's grade, in the order of `GRADES`.
 
     Every grade is a key, with an empty list where no entry has it. An entry whose `slip` names another entry is left
     out.
