@@ -7,8 +7,7 @@ top back. A basis is
     g1 = (2 pi, 0, 0),     g2 = (0, 2 pi, 0),     g3 = (-Delta psi, -Delta chi, T),
 
 T the period of nutation and Delta psi, Delta chi the angles of precession and spin in it. g1 and g2 are the same
-everywhere; g3 continued along a loop comes back as another vector of the lattice. Of a body with three moments two
-pairs of times (T_H, T_F) of a torus are carried round the values of an isolated spin. Not in the paper.
+everywhere; g3 continued along a loop comes back as another vector of the lattice. Not in the paper.
 """
 
 import math
@@ -23,19 +22,11 @@ from atlas.arithmetic.numbers import nearest, workprec
 from atlas.arithmetic.words import exact
 from atlas.bodies.symmetric_top import inputs_of_top
 from atlas.errors import DomainError, NotCertifiedError
-from atlas.maps.bifurcation import Bifurcation
 from atlas.maps.wells import Wells
 from atlas.motions.nutation.certified_top import TopMotion
-from atlas.motions.torus.certified_torus import Torus
 
 PRECISION = 128
 """Binary digits of the balls of period and angles."""
-
-NEWTON_STEPS = 40
-"""Number of steps of Newton's method to a state with given values."""
-
-MAX_RESIDUAL = 1e-13
-"""Largest error of a value of that state, relative to its terms: rounding leaves some 1e-15."""
 
 GRID = np.concatenate([np.geomspace(1e-12, 1e-3, 400)[:-1], 1 - np.linspace(1.0, -1.0, 2001)[1:-1]])
 """Places 1 - end nu at which the potential is looked at, from the pole nu = end, where they are dense, to the other."""
@@ -302,51 +293,3 @@ def around(
         if all(room(dp, dg) > 0 for dp, dg in zip(x, y, strict=True)):
             break
     return np.stack([p + x, g + slope * x + y], axis=-1)
-
-
-def carried_basis(bifurcation: Bifurcation, axis: int, loop: FloatArray) -> tuple[tuple[tuple[int, ...], ...], float]:
-    """Carry two periods of the tori of a body round a ``loop`` (N, 2) of values (F, H), closed by its first point.
-
-    The tori are those next to the spin about an ``axis``, 0 to 2. Their periods, pairs of times (T_H, T_F), are
-    proved in balls at each point and continued to the nearest basis. Returns (rows of the new basis in the old, two
-    tuples of integers; the largest distance of a continued basis from the next in units of that), the latter below
-    1/4. Raises DomainError for a coarser loop, NotCertifiedError where no periods are found.
-    """
-    state = np.zeros(6)
-    state[[axis, axis + 3]] = bifurcation.c / bifurcation.b, bifurcation.b
-    state += 0.1 * bifurcation.b * np.array([0.5, 0.8, -0.3, 1.0, 0.5, -0.1])
-    bases: list[FloatArray] = []
-    step = 0.0
-    for F, H in [*loop.tolist(), loop[0].tolist()]:
-        state = _with_values(bifurcation, state, np.array([H, F, bifurcation.b * bifurcation.b, bifurcation.c]))
-        I, W, K = (exact(*x) for x in (bifurcation.inertia, state[:3] / bifurcation.inertia, state[3:]))
-        torus = Torus(I, W, K)
-        basis = np.array([[float(period.H), float(period.F)] for period in torus.periods(64)])
-        if bases:
-            transition = bases[-1] @ np.linalg.inv(basis)
-            step = max(step, float(np.abs(transition - np.rint(transition)).max()))
-            basis = np.rint(transition) @ basis
-        bases.append(basis)
-    if not step < 1 / 4:
-        raise DomainError(f"A period changes by {step:.3g} of itself from one point of the loop to the next.")
-    rows = np.rint(bases[-1] @ np.linalg.inv(bases[0])).astype(int).tolist()
-    return tuple(tuple(row) for row in rows), step
-
-
-def _with_values(bifurcation: Bifurcation, state: FloatArray, values_sought: FloatArray) -> FloatArray:
-    """Return (M, K), shape (6,), near a ``state`` (6,), with the values sought of (H, F, K^2, (M, K)), shape (4,).
-
-    ``bifurcation`` is that of the body. Raises DomainError where `NEWTON_STEPS` steps of Newton's method leave a value
-    off by more than `MAX_RESIDUAL` of its terms.
-    """
-    I, a = bifurcation.inertia, bifurcation.a
-    for _ in range(NEWTON_STEPS):
-        M, K = state[:3], state[3:]
-        values = np.array([(M @ (M / I) + K @ (I * K)) / 2, M @ M - K @ (a * K), K @ K, M @ K])
-        sizes = np.array([values[0], M @ M + K @ (abs(a) * K), K @ K, abs(M) @ abs(K)])
-        if (abs(values - values_sought) <= MAX_RESIDUAL * sizes).all():
-            return state
-        slopes = np.array([[*(M / I), *(I * K)], [*(2 * M), *(-2 * a * K)], [0, 0, 0, *(2 * K)], [*K, *M]])
-        state = state - np.linalg.lstsq(slopes, values - values_sought)[0]
-    H, F = values_sought[:2]
-    raise DomainError(f"No state with F = {F:g} and H = {H:g} was found: choose a loop nearer to the spin.")
