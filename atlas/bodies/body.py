@@ -12,7 +12,7 @@ from atlas.arithmetic.annotations import FloatOrArray, RealArrayLike
 from atlas.arithmetic.dimensions import DENSITY, INERTIA, LENGTH, MASS
 from atlas.arithmetic.double_double import exact_results, over
 from atlas.arithmetic.given import exact_number as given_number
-from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, numbers, plain
+from atlas.arithmetic.inputs import FloatArray, as_given, common_shape, matrix, number, numbers, plain
 from atlas.arithmetic.numbers import nearest
 from atlas.arithmetic.uncertainty import CarriesUncertainty
 from atlas.bodies import formula_shapes as formulas
@@ -507,6 +507,7 @@ class SymmetricBody(CarriesUncertainty):
             raise DomainError(
                 f"A mass matrix is a sum of m x x^T and so not negative, but its principal values are {g}."
             )
+        tolerance = number(tolerance, "The tolerance")
         if nearest((exact[2] - exact[0]) / largest) <= tolerance:
             moment = given_number(2 * sum(exact, fmpq(0)) / 3)
             return cls(moment, moment)

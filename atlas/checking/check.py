@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from atlas.arithmetic.annotations import RealArrayLike
-from atlas.arithmetic.inputs import real
+from atlas.arithmetic.inputs import number, real
 from atlas.checking.conserved import Drift, Drifts
 from atlas.checking.conventions import conventions_that_fit
 from atlas.checking.grades import LINES, MAX_DIGITS, Column, Envelope, Errors, Grade
@@ -323,6 +323,7 @@ def _graded(trajectory: Trajectory, threshold: float, parameters: Mapping[str, A
     `parameters` replace those of the trajectory, by the names in `check_file`. Raises AtlasError for a threshold out of
     range, and where there is nothing to compare.
     """
+    threshold = number(threshold, f"The threshold, from 0 to {MAX_DIGITS:g} correct digits,")
     if not 0 <= threshold <= MAX_DIGITS:
         raise AtlasError(f"The threshold counts correct digits, from 0 to {MAX_DIGITS:g}; it cannot be {threshold:g}.")
     target = reference(trajectory.parameters, parameters, trajectory.file)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from atlas.arithmetic.annotations import RealArrayLike
-from atlas.arithmetic.inputs import FloatArray
+from atlas.arithmetic.inputs import FloatArray, number
 from atlas.checking.trajectory import with_plurals
 from atlas.errors import AtlasError
 from atlas.fitting.conventions import minima_of, other_conventions
@@ -159,7 +159,8 @@ def fit(
         "field_in_body": field_in_body, "signal": signal,
     }  # fmt: skip
     measured = with_plurals("fit", measured, plural)
-    data = of_arrays(t, measured, sigma, float(epoch), scalar_first=scalar_first, nan_policy=nan_policy)
+    epoch = number(epoch, "The epoch")
+    data = of_arrays(t, measured, sigma, epoch, scalar_first=scalar_first, nan_policy=nan_policy)
     if loss not in get_args(Loss):
         raise AtlasError(f"The loss is one of {', '.join(get_args(Loss))}, not {loss!r}.")
     if loss != "linear" and not data.known:
@@ -180,7 +181,7 @@ def fit(
         tried = tried if steady else with_ratio_one(problem, tried)
     elif model.is_any_motion and "I1" in model.names:
         tried, steady = with_free_body(problem, tried)
-    result = Fit.of(problem, tried, float(epoch), steady=steady, doubt=doubt)
+    result = Fit.of(problem, tried, epoch, steady=steady, doubt=doubt)
     if not _is_followed(problem, np.array([result.parameters[name].value for name in result.names])):
         readings = other_conventions(
             problem,

@@ -1,5 +1,6 @@
 """Parameters of a fit: values, bounds, expressions. Only expressions load lmfit, which evaluates them."""
 
+import reprlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import hypot, inf, isfinite, isnan
@@ -152,8 +153,8 @@ def _user_attributes(params: Any, *, is_fix: bool = False) -> dict[str, dict[str
         for key in attributes.keys() & {"value", "min", "max"}:
             try:
                 attributes[key] = float(attributes[key])
-            except (TypeError, ValueError) as error:
-                raise AtlasError(f"{name}: {key} must be a number, not {attributes[key]!r}.") from error
+            except (OverflowError, TypeError, ValueError) as error:
+                raise AtlasError(f"{name}: {key} must be a number, not {reprlib.repr(attributes[key])}.") from error
         low, high = attributes.get("min", -inf), attributes.get("max", inf)
         if not low <= high:
             raise AtlasError(f"{name}: min must not exceed max, but they are {low!r} and {high!r}.")

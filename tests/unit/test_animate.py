@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 from PIL import Image, ImageSequence
@@ -173,6 +174,14 @@ def test_a_cone_as_flat_as_a_disk_is_drawn() -> None:
     disk = next(surface for surface in layers(scene, Surface) if surface.within)
     assert np.abs(disk.rims[0][:, 2]).max() < 1e-12
     assert np.linalg.norm(disk.rims[0], axis=1).min() == pytest.approx(1.0)
+
+
+def test_values_of_frames_may_be_a_series(tmp_path: Path) -> None:
+    """Whatever its index."""
+    moving = atlas.animate("cone", "azimuth", pd.Series([10.0, 20.0], index=["a", "b"]))
+    file = tmp_path / "cone.gif"
+    animation.save(moving, file, "gif", 10.0, 20)
+    assert Image.open(file).n_frames == 2
 
 
 @pytest.mark.slow

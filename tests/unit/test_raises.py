@@ -144,6 +144,13 @@ REFUSED: list[tuple[Callable[[], Any], str]] = [
     (lambda: H(1.5, (1.0, 2.0)).sample(10**400), "The points must be a real number"),
     (lambda: atlas.clebsch([[1], [1, 2]], SPIN, SPIN), "The inertia tensor must be a real number or an array"),
     (lambda: ROUND.euler_angles(1.0, 3), "seq is three letters"),
+    (lambda: atlas.SymmetricBody.from_mass_matrix((1.0, 1.0, 3.0), tolerance=np.nan), "The tolerance must be finite"),
+    (
+        lambda: atlas.check([0.0], rotations=np.eye(3)[None], motion=ROUND, threshold=[6]),
+        "correct digits, must be one number",
+    ),
+    (lambda: fitted(rotation=np.ones((9, 3, 3)), epoch=10**400), "The epoch must be a real number"),
+    (lambda: fitted(rotation=np.array([np.eye(3)] * 9), fix={"ratio": 10**400}), "ratio: value must be a number"),
     (lambda: ROUND.spectrum(of=np.ones(2)), "A motion has no spectrum of"),
     (lambda: of_top(Q, (1.0, 1.0), inertia=(1.0, 2.5)), "at most 2 I2"),
     (lambda: of_top(Q, (0.0, 0.0)), "zero vector"),

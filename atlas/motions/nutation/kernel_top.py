@@ -250,6 +250,7 @@ class TopMotion(SymmetricMotion[SingleTop]):
         Products and |B| are not rounded, except that of `volume` and `susceptibility`.
         """
         I2, I3 = moments_of_one(body)
+        c = number(c, "c")
         if not isinstance(charges, ChargeMoments):
             raise AtlasError(f"The charges are ChargeMoments (of a shape, of points, or J2 and J3), not {charges!r}.")
         if units is not None and c != 1:

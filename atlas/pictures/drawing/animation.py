@@ -204,6 +204,8 @@ def animate(
         time = ["t"] if recipe.scene(**parameters).paths else []
         raise unknown("parameter", over, [*recipe.parameters, *time], f"in the figure {recipe.name!r}")
 
+    values = list(values)
+
     def make(k: int) -> Scene:
         try:
             return recipe.scene(**parameters, **{over: values[k]})
