@@ -69,7 +69,7 @@ class DoubleTurn:
         return turns(rational(t, "the time"), (self._direction, self.k), (AXES[2], self.phi))
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes, (73), three balls in rad/time; it rotates about e3 by phi t."""
+        """Return Omega(t) along the body's axes, (73), balls or rationals in rad/time; it rotates about e3 by phi t."""
         s, c = sin_cos(self.phi * rational(t, "the time"))
         return turned_back(self.omega, c, s)
 
@@ -108,7 +108,7 @@ class ElementaryMotion(DoubleTurn):
         return (fmpq(0), *axis_vector), k, phi
 
     def quaternion(self, t: Any) -> list[Real]:
-        """Return a unit quaternion (w, x, y, z) of R(t), four balls, the product of those of both rotations, (85)."""
+        """Return a unit quaternion (w, x, y, z) of R(t), balls or rationals: the product of two rotations, (85)."""
         t = rational(t, "the time")
         n2, n3 = self.axis
         s, c = sin_cos(self.k * t / 2)
@@ -120,11 +120,11 @@ class ElementaryMotion(DoubleTurn):
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), (84), three balls: the body's axis in the laboratory."""
+        """Return the third column of R(t), (84), three balls or rationals: the body's axis in the laboratory."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B', (32), (62), (60), three balls in 1/time: it rotates about e3 with frequency phi."""
+        """Return K(t) = R^T B', (32), (62), (60), balls or rationals in 1/time: it rotates about e3 by phi t."""
         s, c = sin_cos(self.phi * rational(t, "the time"))
         return turned_back((fmpq(0), self.B2, self.B3), c, s)
 

@@ -48,7 +48,7 @@ class BallMotion:
         return turns(t, (last_row, -self.larmor), ((fmpq(0), *axis_vector), -gamma))
 
     def quaternion(self, t: Any) -> list[Real]:
-        """Return a unit quaternion (w, x, y, z) of R(t), four balls, the product of those of both rotations, (28)."""
+        """Return a unit quaternion (w, x, y, z) of R(t), balls or rationals: the product of two rotations, (28)."""
         t = rational(t, "the time")
         k2, k3 = self.k_hat
         S, C = sin_cos(-self.larmor * t / 2)
@@ -56,12 +56,12 @@ class BallMotion:
         return [c * C - k3 * s * S, -k2 * s * S, k2 * s * C, c * S + k3 * s * C]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m(t) in the laboratory, (26), three balls in inertia/time."""
+        """Return m(t) in the laboratory, (26), three balls or rationals in inertia/time."""
         S, C = sin_cos(self.larmor * rational(t, "the time"))
         return [self.m2 * S, self.m2 * C, self.m3]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = R^T m/I0 along the body's axes, below (25), three balls in rad/time.
+        """Return Omega(t) = R^T m/I0 along the body's axes, below (25), three balls or rationals in rad/time.
 
         It is m(0)/I0 rotated by gamma t about k_hat.
         """

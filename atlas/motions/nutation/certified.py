@@ -161,7 +161,7 @@ class Nutating:
 
     @property
     def precession_rate(self) -> Real:
-        """Mean rate of precession in rad/time, a ball: `precession_per_period` over `period`.
+        """Mean rate of precession in rad/time, a ball or a rational: `precession_per_period` over `period`.
 
         Raises DomainError without a period.
         """
@@ -169,7 +169,7 @@ class Nutating:
 
     @property
     def spin_rate(self) -> Real:
-        """Mean rate of rotation about the body's axis in rad/time, a ball: `spin_per_period` over `period`.
+        """Mean rate of rotation about the body's axis in rad/time, ball or rational: `spin_per_period` over `period`.
 
         Raises DomainError without a period.
         """
@@ -309,18 +309,18 @@ class Nutating:
         return [row[j - 1] for row in self.rotation(t)]
 
     def third_axis(self, t: Any) -> list[Real]:
-        """Return the third column of R(t), the body's axis in the laboratory at time t, a list of three balls."""
+        """Return the third column of R(t), the body's axis in the laboratory at time t, balls or rationals."""
         return self.column(3, t)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return R^T `field` along the body's axes at time t, a list of three balls.
+        """Return R^T `field` along the body's axes at time t, a list of three balls or rationals.
 
         For a body in a field that is K(t) of (32), in 1/time.
         """
         return [dot(column, self.field) for column in zip(*self.rotation(t), strict=True)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes at one time t, a list of three balls in rad/time; exact at t = 0."""
+        """Return Omega(t) along the body's axes at one time t, balls or rationals in rad/time; exact at t = 0."""
         t = rational(t, "the time")
         if t == 0:
             return list(self.omega)
@@ -330,7 +330,7 @@ class Nutating:
         return turned_back(self.omega, c, s)
 
     def turning_rate(self, t: Any) -> list[Real]:
-        """Return Omega along the body's axes at time t, a list of three balls in rad/time.
+        """Return Omega along the body's axes at time t, a list of three balls or rationals in rad/time.
 
         It is twice the vector part of the quaternion's logarithmic derivative.
         """

@@ -295,11 +295,11 @@ class EllipticMotion(Nutating):
         return (arb(1), arb("inf")) if self.is_steady else super()._periods()
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega_i = (E_i - `frame`) K_i along the body's axes at time t, a list of three balls in rad/time."""
+        """Return Omega_i = (E_i - `frame`) K_i along the body's axes at time t, balls or rationals in rad/time."""
         return self.rate_of(self.field_in_body(t))
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return m = R II Omega in the laboratory at time t, three balls in inertia/time."""
+        """Return m = R II Omega in the laboratory at time t, three balls or rationals in inertia/time."""
         m = [I * w for I, w in zip(self.inertia, self.angular_velocity(t), strict=True)]
         return applied(self.rotation(t), m)
 

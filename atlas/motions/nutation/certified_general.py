@@ -262,16 +262,16 @@ class Symmetric:
         self._back = [places.index(i) for i in range(3)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) as three rows of balls, along the body's axes in their given order; the time is taken exactly."""
+        """Return R(t), rows of balls or rationals, along the body's axes in their given order, at the exact time t."""
         R = self.exact.rotation(t)
         return [[R[i][j] for j in self._back] for i in self._back]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the body's axes in their given order, three balls in rad/time."""
+        """Return Omega(t) along the body's axes in their given order, three balls or rationals in rad/time."""
         Omega = self.exact.angular_velocity(t)
         return [Omega[i] for i in self._back]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B' along the body's axes in their given order, three balls in 1/time."""
+        """Return K(t) = R^T B' along the body's axes in their given order, three balls or rationals in 1/time."""
         K = self.exact.field_in_body(t)
         return [K[i] for i in self._back]

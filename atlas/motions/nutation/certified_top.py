@@ -209,12 +209,12 @@ class TopMotion(Nutating):
         return [transverse, second, third if self.coupling[1] else self.omega[2]]
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return b(t) = R^T n, the unit direction n along the body's axes at time t, a list of three balls."""
+        """Return b(t) = R^T n, the unit direction n along the body's axes at time t, balls or rationals."""
         size = length(*self.direction)
         return [x / size for x in super().field_in_body(t)]
 
     def angular_momentum(self, t: Any) -> list[Real]:
-        """Return the canonical momentum (I Omega + k b)/I2 in the laboratory at time t, three balls, in 1/time."""
+        """Return the canonical momentum (I Omega + k b)/I2 in the laboratory at t, balls or rationals in 1/time."""
         (w1, w2, w3), b, (k2, k3) = self.angular_velocity(t), self.field_in_body(t), self.coupling
         M = w1 + k2 * b[0], w2 + k2 * b[1], self.I * w3 + k3 * b[2]
         return applied(self.rotation(t), M)

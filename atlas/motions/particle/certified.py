@@ -130,6 +130,6 @@ class Flight:
         self.point = rationals(point, "the point", 3)
 
     def position(self, t: Any) -> list[Real]:
-        """Return the point's position at time t, three balls in the unit of length."""
+        """Return the point's position at time t, three balls or rationals in the unit of length."""
         centre, R = self.particle.position(t), self.motion.rotation(t)
         return [y + sum(r * x for r, x in zip(row, self.point, strict=True)) for y, row in zip(centre, R, strict=True)]

@@ -250,7 +250,7 @@ class OnTorus:
         return [[arb_poly(x)(arb(t)) + arb(0, remaining.upper()) for x in rows] for rows in (Omega, K, *R)]
 
     def rotation(self, t: Any) -> list[list[Real]]:
-        """Return R(t) at one time t, taken exactly, as three rows of balls, with R(0) = 1."""
+        """Return R(t) at one time t, taken exactly, as three rows of balls or rationals, with R(0) = 1."""
         series = self._series_at_zero(t)
         if series:
             return series[2:]
@@ -264,12 +264,12 @@ class OnTorus:
         return product(turn(self.field, angle.cos(), angle.sin()), swing)
 
     def field_in_body(self, t: Any) -> list[Real]:
-        """Return K(t) = R^T B' along the body's axes, three balls in 1/time."""
+        """Return K(t) = R^T B' along the body's axes, three balls or rationals in 1/time."""
         series = self._series_at_zero(t)
         return [k * self.rate for k in (series[1] if series else self.state(t)[0].K)]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) = W - K along the body's axes at one time, a list of three balls in rad/time."""
+        """Return Omega(t) = W - K along the body's axes at one time, a list of three balls or rationals in rad/time."""
         series = self._series_at_zero(t)
         if series:
             return [w * self.rate for w in series[0]]
@@ -344,7 +344,7 @@ class AsymmetricMotion:
         return self._motion.rotation(t)
 
     def column(self, j: int, t: Any) -> list[Real]:
-        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory, as `rotation` three balls."""
+        """Return column j of R(t), j = 1, 2, 3: the body's axis j in the laboratory, balls or rationals."""
         return [row[j - 1] for row in self.rotation(t)]
 
     def field_in_body(self, t: Any) -> list[Real]:

@@ -149,7 +149,7 @@ class PlacedMotion:
         return R if self.is_diagonal or rational(t, "the time") == 0 else [[x + error for x in row] for row in R]
 
     def angular_velocity(self, t: Any) -> list[Real]:
-        """Return Omega(t) along the given axes of the body, three balls in rad/time; exact at t = 0."""
+        """Return Omega(t) along the given axes of the body, three balls or rationals in rad/time; exact at t = 0."""
         motion, axes, error, _ = self._deviation(t)
         if rational(t, "the time") == 0:
             return list(self.omega)
