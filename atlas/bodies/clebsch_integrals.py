@@ -104,8 +104,3 @@ def body_tensor(inertia: Any) -> FloatArray:
         I2, I3 = map(float, moments_of_one(inertia))
         inertia = (I2, I2, I3)
     return inertia_tensor(inertia)
-
-
-def cofactors(J: FloatArray) -> FloatArray:
-    """Return the matrix of cofactors, (det J) J^-1, of a symmetric tensor (3, 3), singular ones too, in its dtype."""
-    return np.array([np.cross(J[1], J[2]), np.cross(J[2], J[0]), np.cross(J[0], J[1])])

@@ -130,17 +130,6 @@ def checked_tensor(inertia: Any) -> tuple[FloatArray, list[fmpq], list[list[fmpq
     return tensor, values, axes
 
 
-def principal(matrix: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the principal values (3,) of a symmetric matrix (3, 3), and the principal axes as rows, (3, 3).
-
-    The rows are a rotation. The elements are taken as exact: values and axes are those of the characteristic
-    polynomial over the rationals, each rounded once, so that small values are as accurate as large ones. Values of
-    a diagonal stay in their order; others ascend.
-    """
-    values, axes = principal_values(rational_matrix(matrix))
-    return np.array([*map(nearest, values)]), rounded(axes)
-
-
 def principal_values(matrix: list[list[fmpq]]) -> tuple[list[fmpq], list[list[fmpq]]]:
     """Return (three principal values, three axes as rows), rationals, of a symmetric matrix of rationals.
 

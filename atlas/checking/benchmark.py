@@ -61,8 +61,6 @@ CASES = {
 BESIDE = ("heyoka_own", "heyoka_7", "DOP853_7")
 """Variants of an integrator that stand in tables only: in a figure their lines would lie on the integrator's."""
 
-OURS = ("ours", "ours_grid", "ours_out", "ours_out_far", "grid", "grid_out", "even_out", "third_axis")
-
 
 def title(method: str) -> str:
     """Return the title of a method, a key of METHODS, for legends; an unknown method is its own title."""
