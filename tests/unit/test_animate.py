@@ -181,7 +181,8 @@ def test_values_of_frames_may_be_a_series(tmp_path: Path) -> None:
     moving = atlas.animate("cone", "azimuth", pd.Series([10.0, 20.0], index=["a", "b"]))
     file = tmp_path / "cone.gif"
     animation.save(moving, file, "gif", 10.0, 20)
-    assert Image.open(file).n_frames == 2
+    with Image.open(file) as film:
+        assert film.n_frames == 2
 
 
 @pytest.mark.slow
