@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 FittedMotion: TypeAlias = AnyMotion | TopMotion | EllipticMotion
 
+RENAMED = {"doubts": "warnings", "rivals": "alternatives"}
+"""Attributes of a fit by their former names."""
+
 SURPRISE = 5.0
 """Standard deviations of chi square, or of a correlation, above which there is a warning."""
 
@@ -166,6 +169,16 @@ class Fit:
             _free=view.null * view.units[:, None], _units=view.units, _whole=view.prediction_covariance,
             notes=data.notes,
         )  # fmt: skip
+
+    if not TYPE_CHECKING:  # else mypy would take any name for an attribute
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError for a missing attribute `name`.
+
+            The message gives the new name of a renamed attribute.
+            """
+            new = RENAMED.get(name)
+            raise AttributeError(f"A fit has no attribute {name!r}" + (f": it is called {new!r} now." if new else "."))
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the attributes for pickle, without lmfit's objects, which are made again on loading."""

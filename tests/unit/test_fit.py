@@ -293,6 +293,15 @@ def test_a_fit_survives_copying_and_pickling(attitudes: Any) -> None:
     assert fits[0][1].conf_interval(p_names=["ratio"], sigmas=[1])
 
 
+def test_errors_for_former_names_name_the_new_names(attitudes: Any) -> None:
+    """And a name that a fit never had is only said to be none."""
+    for old, new in {"doubts": "warnings", "rivals": "alternatives"}.items():
+        with pytest.raises(AttributeError, match=f"{old}.*{new}"):
+            getattr(attitudes, old)
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = attitudes.nothing
+
+
 def test_a_fit_is_one_line_in_a_list(attitudes: Any) -> None:
     """As `repr` shows it."""
     assert len(repr([attitudes])) < 160
