@@ -51,7 +51,7 @@ def real(value: Any, name: str, unit: str = "") -> FloatArray:
         raise _not_real(value, name)
     if not np.isfinite(array).all():
         worst_value = array[~np.isfinite(array)].flat[0]
-        raise DomainError(f"{name} must be finite, but holds {worst_value}.")
+        raise DomainError(f"{name} must be finite, not {worst_value}.")
     array += 0.0
     return frozen(array)
 

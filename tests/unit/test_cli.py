@@ -165,6 +165,14 @@ def test_a_read_only_folder_is_refused_before_any_work(tmp_path: Path, monkeypat
     assert f"'{tmp_path / 'new'}' cannot be written, for its folder is read-only" in result.stderr
 
 
+@pytest.mark.parametrize("place", ["/proc/x.csv", "/proc/y/x.csv", "{}.csv".format("x" * 300)])
+def test_a_file_that_no_one_may_write_is_a_wrong_input(place: str) -> None:
+    """Also of the superuser, whom only an attempt tells."""
+    result = run(*f"motion --ratio 1.5 --field 1 2 --omega2 0.7 --times 0 1 --out {place}".split())
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert "; choose another path" in result.stderr
+
+
 @pytest.mark.slow
 def test_a_missing_library_is_an_error_of_one_line() -> None:
     """As after new code came with new libraries: the missing library, and the command that installs it."""

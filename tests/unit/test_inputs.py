@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from flint import arb
 
 import atlas
 from atlas.arithmetic import inputs
@@ -64,6 +65,8 @@ def test_shapes_that_do_not_broadcast_are_refused_in_one_sentence() -> None:
         (inputs.real, [1, [2, 3]], AtlasError),
         (inputs.real, [1, None], AtlasError),
         (inputs.real, 10**400, AtlasError),
+        (inputs.real, arb(1, 0.5), AtlasError),
+        (inputs.real, [arb(1, 0.5)], AtlasError),
         (inputs.real, [1, np.nan], DomainError),
         (inputs.real, -np.inf, DomainError),
         (inputs.number, [1, 2], AtlasError),
