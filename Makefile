@@ -230,7 +230,7 @@ else
 	@$(BIN)/python -I -c 'import pathlib, sysconfig; (pathlib.Path(sysconfig.get_path("purelib")) / "checkout.pth").write_text("../../../checkout\n")'
 	@printf '#!/bin/sh\n# The program of the checkout in whose .venv this stands, and of its libraries alone.\nunset PYTHONPATH PYTHONHOME\nbin="$$(dirname -- "$$(readlink -f -- "$$0")")"\nset -- "$$bin/python" -P "$$bin/../checkout/atlas/__main__.py" "$$@"\n# while Python starts, Ctrl-C waits, where this env can do that: atlas/__main__.py heeds it\nenv --block-signal=INT true 2>/dev/null && set -- env --block-signal=INT "$$@"\nexec "$$@"\n' >$(ATLAS) && chmod +x $(ATLAS)
 	@echo '  GL libraries for shaded figures' && $(MAKE) -s gl
-	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -P -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista, scipy.optimize'   # writes their bytecode, without which each worker compiles them for 1.5 s, and each fit for 1.2 s
+	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -P -c 'from atlas.places import settle_matplotlib; settle_matplotlib(); import fontTools.subset, fontTools.ttLib.tables.otTables, matplotlib.figure, matplotlib._constrained_layout, matplotlib.backends.backend_pdf, matplotlib.backends.backend_svg, pyvista, scipy.optimize, atlas.cli.fit, atlas.fitting'   # writes their bytecode, without which each worker compiles them for 1.5 s, and each fit for 1.3 s
 	@pwd -P >$@
 endif
 
