@@ -44,7 +44,10 @@ def field_in_body(R: Any, B: Any) -> FloatArray:
 
 
 def field_rate(K: Any, Omega: Any) -> FloatArray:
-    """Poisson equation of the field K in the body, (35), in components (39): dK/dt = -[Omega, K], shape (..., 3)."""
+    """Poisson equation of the field K in the body, (35), in components (39): dK/dt = -[Omega, K], shape (..., 3).
+
+    Each row of R obeys the same equation, (74).
+    """
     return bracket(K, Omega)
 
 
