@@ -247,9 +247,10 @@ def _lasting(entry: Mapping[str, Any]) -> str:
 
 
 def figures_by_part(request: ReportRequest, left_out: list[str]) -> dict[str, list[str]]:
-    """Return lists of fenced figure blocks by part (card, body, motion, maps), only of those parts that the report has.
+    """Return lists of fenced figure blocks by part: "card", "body", "motion" and "maps", all four.
 
-    Sentences on why some figures are missing are added to `left_out`.
+    The list of a part that the report does not have is empty. Sentences on why some figures are missing are added to
+    `left_out`.
     """
     maps = maps_of(request)
     candidates = maps | {name: dict[str, Any]() for name in request.family.figures if maps or name not in PART}

@@ -464,9 +464,10 @@ def spread_of(family: Family, options: dict[str, Any], times: Sequence[float] = 
 
 
 def _quantities_of_draws(family: Family, middle: Mapping[str, Any]) -> Iterator[Quantity]:
-    """Yield the quantities at moved inputs, each read by its `drawn` if it has one; slow ones are left out.
+    """Yield the `Quantity` definitions for an object at drawn inputs, without slow quantities that are in no table.
 
-    `middle` holds the values at the unmoved inputs, by name.
+    `middle` holds the values at the given inputs, by name. If a quantity with a `drawn` has a value there, its `get`
+    becomes `drawn` with this value as `reference`.
     """
     for q in family.quantities:
         if q.tabled or not q.slow:

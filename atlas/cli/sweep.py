@@ -183,9 +183,10 @@ def swept(**options: Any) -> None:
 
 
 def _tell_rounding(plan: Any) -> None:
-    """Print on standard error the effect of rounded inputs on the first of a `Plan`'s latest rows, if it is felt.
+    """Print on standard error the angle in rad by which rounded inputs turn the body of a `Plan` in its row `latest`.
 
-    Nothing is printed for a plan with certified digits, or without times.
+    That is the first row with the largest |t|. If the angle is not known, the sentence says so. Nothing is printed for
+    an angle up to `ROUNDING`, for certified digits, and without times or at short ones, see `is_short`.
     """
     from atlas.sweeps.families import FAMILIES as SWEPT
     from atlas.sweeps.plan import LAUNCH

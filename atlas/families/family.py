@@ -60,7 +60,7 @@ class Quantity:
     lines      (symbol, words) of each component that is printed on its own line
     get        how to get it from an object of kernels, where that is no attribute; `exact`, from one of balls
     drawn      how to get it where inputs are uncertain: a function of an object of kernels at moved inputs and,
-               as `near`, of the value at the unmoved inputs
+               as `reference`, of the value at the unmoved inputs
     text       how the texts of its digits become one text
     missing    why there may be none: an empty cell then, which this explains; "" where that is an error
     checked    its name in a stress run, if it has a promise or is checked without one

@@ -276,10 +276,11 @@ def identified(request: Request, setup: Observed) -> Data:
 
 
 def _singular_values(I: Any, K: Any, omega: Any) -> tuple[Any, Any]:
-    """Return two arrays of singular values, descending: of the linear equations of motion, of a fit's derivatives.
+    """Return two arrays of singular values, descending: of the linear equations of motion, of a fit's Jacobian.
 
-    `I`, `K` and `omega` (3,) are moments, field and initial angular velocity in the body. The unknowns of the
-    equations are three moments and three components of the field, shape (6,); the fit has its free parameters.
+    `I`, `K` and `omega` (3,) are moments, field B' and initial angular velocity in the body. The equations, at `TIMES`,
+    have six unknowns: the moments x_i and the factors y_i of the field K(t), which like Omega(t) is known. The fit, to
+    the attitudes at `TIMES`, has the free parameters of the model "asymmetric", in their units.
     """
     from atlas.fitting.data import of_arrays
     from atlas.fitting.models import model_of

@@ -108,9 +108,9 @@ def stable(q: TopQuartic) -> bool:
 def sleeping_band(I: fmpq, kappa: fmpq, k3: fmpq, potential: tuple[fmpq, fmpq], side: int) -> tuple[Real, Real] | None:
     """Return (low, high) of omega3, rad/time, between which a top along n (`side` 1) or against n (-1) is unstable.
 
-    None if there is no such omega3. I = I3/I2; kappa, k3 and ``potential`` are over I2. The potential is (a0, A),
-    a0 its linear coefficient, A that of `TopQuartic`. The band is (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A)
-    with M3 = I omega3 + side k3.
+    None if there is no such omega3. I = I3/I2; kappa = k2 - k3/I, k3 and ``potential`` are over I2. The potential is
+    (a0, A), a0 its linear coefficient, A that of `TopQuartic`. With M3 = I omega3 + side k3 the band is
+    (M3 - 2 side kappa)^2 < 4 (kappa^2 + side a0 + A).
     """
     a0, A = potential
     square = kappa * kappa + side * a0 + A

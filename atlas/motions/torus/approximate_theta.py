@@ -173,10 +173,10 @@ class ThetaMotion:
         return np.asarray(matrix_of(self.X) @ [complex_of(x) for x in self.start])
 
     def _improved(self, T: Array, *, reduced: bool = True) -> Vector:
-        """Return zeta at the start to all digits, two complex balls, by Newton's method from times T (2,).
+        """Return zeta at the start, two complex numbers as balls of radius 0, by Newton's method from times T (2,).
 
-        If `reduced`, an even period is subtracted, see `_near_real`. Raises NotCertifiedError where the method does not
-        converge.
+        T is complex, near (T_H, T_F) from the origin to the start, where M and K must be those at t = 0. If `reduced`,
+        an even period is subtracted, see `_near_real`. Raises NotCertifiedError where the method does not converge.
         """
         rates = fields(self.motion.moments, np.array([complex_of(x) for x in self.at_start.components[:6]]))
         i, j = max(combinations(range(6), 2), key=lambda p: abs(np.linalg.det(rates[list(p)])))
