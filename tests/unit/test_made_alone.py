@@ -128,7 +128,7 @@ CASES: list[tuple[Callable[[Any], Any], float, float, str]] = [
     (lambda x: atlas.ElementaryMotion(x, (1.0, 2.0), 0.7), 1.0, -0.5, "not -0.5"),
     (lambda x: atlas.ElementaryMotion(1.5, (x, 2.0), 0.0, 0.0).beside, 1.0, 0.0, "has no omega3"),
     (lambda x: atlas.ElementaryMotion(1.5, (1.0, x), 5.0).beside, 1.0, 1.7e308, "too large"),
-    (lambda x: atlas.GeneralMotion(1.5, (1.0, 2.0), (0.1, 0.2, x)), 1.0, np.inf, "holds inf"),
+    (lambda x: atlas.GeneralMotion(1.5, (1.0, 2.0), (0.1, 0.2, x)), 1.0, np.inf, "must be finite, not inf"),
     (lambda x: atlas.GeneralMotion(1.5, (1.0, 2.0), (0.1, 0.2, x)).invariants(), 1.0, 1e200, "too large"),
     (lambda x: atlas.TopMotion((1.0, x), (0, 0), (0.6, 0.8), (1, 1, 1)), 1.0, 2.5, "I2 = 1.0, I3 = 2.5"),
     (lambda x: atlas.TopMotion((x, 0.5), (0, 0), (0.6, 0.8), (1, 1, 1)), 1.0, -1.0, "I2 = -1.0, I3 = 0.5"),
