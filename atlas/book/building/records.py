@@ -27,7 +27,7 @@ from atlas.trial.ledger import EQUATIONS
 from atlas.trial.ledger.citation import cited
 
 _DOCSTRING = re.compile(r'r?"""(.*?)"""', re.DOTALL)
-_POWER = re.compile(r"1e\+?(-?)0*(\d+)")
+_POWER = re.compile(r"(?<![\d.])1e\+?(-?)0*(\d+)")
 MIN_ULPS, MAX_PLAIN, MIN_PLAIN = 0.5, 1e3, 1e-2
 """Half an ulp is as good as a rounded number can be; beyond the other two a power of ten is written."""
 _LETTERS = re.compile(r"(k_hat|Omega|omega|gamma|beta|phi|a(?=\d)|[RIBKkmtyvn])(\d*)|1e(-?\d+)")
