@@ -38,17 +38,17 @@ class Root:
     value: acb
     multiplicity: int
 
-    @cached_property
+    @property
     def is_real(self) -> bool:
         """Whether the root is proven to be real, and finite."""
         return bool(self.value.imag.is_zero()) and not self.is_infinite
 
-    @cached_property
+    @property
     def is_complex(self) -> bool:
         """Whether the root is one of a complex pair."""
         return not (self.is_real or self.is_infinite)
 
-    @cached_property
+    @property
     def is_infinite(self) -> bool:
         """Whether the root is at infinity, where the quartic's leading coefficients are zero."""
         return bool(self.value.real > 0) and not self.value.real.is_finite()
