@@ -163,6 +163,7 @@ UNTIED = {
     "body.kept_ratio": GIVEN,
     "body.ratio_of": GIVEN,
     "body.from_shape": GIVEN,
+    "body.shape_name": GIVEN,
     "inertia.inertia_tensor": GIVEN,
     "inertia.checked_tensor": GIVEN,
     "inertia.exact_mass_matrix": GIVEN,

@@ -82,7 +82,7 @@ def test_existing_files_are_kept(tmp_path: Path, words: str, name: str) -> None:
     if name == "small":
         assert done.returncode == 0, done.stderr
     else:
-        one_line(done, 1, f"out/{name}")
+        one_line(done, 2, f"out/{name}")
     assert names(tmp_path / "out") == [name]
     assert (tmp_path / "out" / name / "own.txt").read_text() == "mine"
 
