@@ -421,7 +421,7 @@ def best(words: Words) -> str:
 
 
 def report_request(family: Family, options: dict[str, Any]) -> "ReportRequest":
-    """Return the request, an `ReportRequest`, of a report from the options of its command by name.
+    """Return the request, a `ReportRequest`, of a report from the options of its command by name.
 
     Raises FaultsError for faulty options, each in a line, and for an object that cannot be.
     """

@@ -17,7 +17,7 @@ LARGEST = 0.02
 """Part of the largest moment beyond which it is not a matter of digits that there is no body."""
 
 ROUNDED = 1e-6
-"""Part of the largest element of a tensor beyond which it is not by rounding that no body has it."""
+"""Relative excess of a tensor over those of bodies, above which rounding does not explain it."""
 
 
 def nearest_moments(_: click.Context, param: click.Parameter, value: Any) -> Any:

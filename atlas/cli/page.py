@@ -63,7 +63,7 @@ def of_fit(file: Path, **options: Any) -> int:
 
 
 def motion_of(motion: Any) -> Any:
-    """Return the request, an `ReportRequest`, of a report on a motion object of Python, along its principal axes."""
+    """Return the request, a `ReportRequest`, of a report on a motion object of Python, along its principal axes."""
     principal = in_principal_axes(motion, fitted=True)
     with COMMANDS[principal.family.page].make_context(principal.family.name, principal.options) as context:
         return report_request(principal.family, context.params)
