@@ -126,17 +126,15 @@ def fit(
     -----
     Parameters, at the time `epoch`:
 
-    ==================  ==========================================================================================
-    ratio               I3/I2, in (0, 2]; of families with three moments, and tops, I1 and I3 in units of I2
-    B1, B2, B3, b       the field B' in the laboratory and its length, in 1/time
-    omega1 to omega3    angular velocity along the axes of the body, in rad/time
-    omega2              of elementary motions alone: its component along the part of the field across the axis
-    a1, a2, a3          rotation vector of R, in radians
-    k2, k3              of tops: coupling to the field over I2, in 1/time
-    linear, quadratic   of tops: parts of the potential over I2, in 1/time^2
-    n1, n2, n3          of tops: direction of the field, held at (0, 0, 1) unless freed by ``vary=True``
-    z, branch           of elliptic motions: see `EllipticMotion`
-    ==================  ==========================================================================================
+    - ratio: I3/I2, in (0, 2]; of families with three moments, and tops, I1 and I3 in units of I2;
+    - B1, B2, B3, b: the field B' in the laboratory and its length, in 1/time;
+    - omega1 to omega3: angular velocity along the axes of the body, in rad/time;
+    - omega2, of elementary motions alone: its component along the part of the field across the axis;
+    - a1, a2, a3: rotation vector of R, in radians;
+    - k2, k3, of tops: coupling to the field over I2, in 1/time;
+    - linear, quadratic, of tops: parts of the potential over I2, in 1/time^2;
+    - n1, n2, n3, of tops: direction of the field, held at (0, 0, 1) unless freed by ``vary=True``;
+    - z, branch, of elliptic motions: see `EllipticMotion`.
 
     Where attitudes are not measured, a is held at 0 and the field is along the axes that the body has at `epoch`. Where
     the axis alone is measured, a3 is held at 0.

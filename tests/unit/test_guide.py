@@ -95,6 +95,17 @@ def test_the_reference_holds_every_public_name() -> None:
     assert all(entry.docstring for name in entries.values() for entry in (name, *name.members.values()))
 
 
+def test_docstrings_have_lists_and_no_ruled_tables() -> None:
+    """A page of the reference would show the rules of a table of reStructuredText as a line of signs."""
+    ruled = [
+        f"{name}.{inner}"
+        for name, entry in described().items()
+        for inner, member in {"": entry, **entry.members}.items()
+        if re.search(r"^\s*={4,}", member.docstring, re.MULTILINE)
+    ]
+    assert not ruled
+
+
 @pytest.mark.slow
 def test_examples_in_docstrings_print_their_output() -> None:
     """Examples that `help` shows of the package and of its classes of motions and surfaces can be typed."""
