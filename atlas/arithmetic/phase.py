@@ -97,13 +97,13 @@ class Phases:
 
     @cached_property
     def words(self) -> FloatArray:
-        """The words -P0 and P1 of n frequencies, shape (2, n, 1)."""
+        """Frequencies in half turns as double-double numbers P0 + P1: rows -P0 and P1, shape (2, n, 1)."""
         P0, P1 = _columns([words(p, 2) for p in self._small])
         return np.array([-P0, P1])
 
     @cached_property
     def halves(self) -> FloatArray:
-        """Upper and lower 26 digits of P0 of n frequencies, shape (2, 1, n, 1)."""
+        """P0 of `words` as a sum of two doubles of at most 26 binary digits, the larger first, shape (2, 1, n, 1)."""
         P0 = -self.words[0]
         head = P0 * SPLITTER - (P0 * SPLITTER - P0)
         return np.array([head, P0 - head])[:, None]

@@ -96,9 +96,10 @@ class SpherePair:
 
     @cached_property
     def _third(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """(1 + Gauss's series of complete integrals of the third kind, exp of the depths |y| of the zeros).
+        """Return two arrays (2, m), row 0 for alpha and row 1 for beta, by Gauss's means.
 
-        Each is (2, m): of alpha, then of beta.
+        The first is 1 plus the series of a complete integral of the third kind, the second is exp |y| of the zero's
+        imaginary part y.
         """
         m, (square, p, d) = self.means, self._starts
         Q = ((square - m.N) / (square + m.N)).scaled(-1)
