@@ -12,6 +12,8 @@ from scipy.spatial.transform import Rotation
 import atlas
 from atlas.arithmetic.quaternions import product
 from atlas.motions.nutation.certified_general import GeneralMotion
+from atlas.motions.torus.certified import AsymmetricMotion
+from atlas.motions.torus.rounded import Certified
 
 FALLS = 2 * 3**0.5
 """Spin below which the top of `MOTIONS` falls over."""
@@ -162,3 +164,14 @@ def test_a_component_of_a_proven_quaternion_that_is_always_zero_is_zero() -> Non
     """A free body that turns about an axis across its own; fails where q comes of two parameters in balls."""
     q = GeneralMotion(fmpq(1, 2), (0, 0), (-1, 1, 0)).quaternion(fmpq(3))
     assert q[3] == 0
+
+
+def test_the_sign_of_certified_values_is_followed_next_to_a_separatrix() -> None:
+    """Over 400 radians of a body that keeps turning over, as by continuity of the closed form in steps of 0.2."""
+    given = (1.0, 1.5, 2.0), (0.0, 0.3, 0.0), (3e-8, 1.0, 3e-8)
+    times = np.arange(0.0, 400.0, 0.2)
+    quaternions = Rotation.from_matrix(atlas.AsymmetricMotion(*given).rotation(times)).as_quat()
+    steps = (quaternions[1:] * quaternions[:-1]).sum(axis=1)
+    continuous = quaternions * np.cumprod(np.sign(np.append(quaternions[0, 3], steps)))[:, None]
+    followed = Certified(AsymmetricMotion(*given), 1.0).quaternion(times[::100])
+    assert (continuous[::100] * followed).sum(axis=1).min() > 0.9

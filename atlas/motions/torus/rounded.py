@@ -24,8 +24,8 @@ FIRST_BITS = 80
 MAX_RADIUS = 2.0**-58
 """Radius of a ball that is rounded, beside 1 or beside the largest rate."""
 
-MAX_STEPPED_PHASE, TOLERANCE = 1000.0, 1e-6
-"""Largest phase up to which a motion is followed by steps, and the error of one."""
+MAX_STEPPED_PHASE, TOLERANCE = 1000.0, 1e-12
+"""Largest phase up to which a motion is followed by steps, and the error of one: near a separatrix it grows."""
 
 
 class Certified:
@@ -88,7 +88,8 @@ class Certified:
         for side in (phases >= 0, phases < 0):
             if side.any():
                 end = max(phases[side], key=abs)
-                followed = solve_ivp(rate, (0.0, end), start, rtol=TOLERANCE, atol=TOLERANCE, dense_output=True)
+                accuracy = {"rtol": TOLERANCE, "atol": TOLERANCE}
+                followed = solve_ivp(rate, (0.0, end), start, "DOP853", dense_output=True, **accuracy)
                 quaternions[side] = followed.sol(phases[side])[6:].T
         return quaternions
 
